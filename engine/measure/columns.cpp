@@ -29,7 +29,8 @@ std::string names_of(const std::vector<MeasureColumn>& columns) {
     return fmt::format("{}{}`{}`", first, columns.size() > 2 ? " to " : ", ", columns.back().name);
 }
 
-// The scene whose columns the documentation lists.
+// A scene with one part of each kind that has columns of its own. The names of the parts stand for any name
+// in the documentation.
 Scene scene_of_names() {
     Scene scene;
     scene.species.resize(1);

@@ -19,7 +19,7 @@ const std::vector<ObserverColumns>& observer_columns();
 
 // The columns of all observers, also of instruments that the scene does not ask for.
 std::vector<MeasureColumn> measure_columns(const Scene& scene);
-// These columns and the names of the instruments, for the reader of a scene.
+// The columns of all observers and the names of all instruments. The reader of a scene looks names up in it.
 Measurable measurable_in(const Scene& scene);
 
 // The table of all columns in Markdown, as in docs/reference/scenes.md.
@@ -33,7 +33,8 @@ struct ColumnAxis {
 
 ColumnAxis axis_of_column(const Scene& scene, const std::string& column);
 
-// Columns that cannot be negative, except those with a species' name.
+// The columns that cannot be negative; columns.cpp lists them. Columns with the name of a species
+// are not in this list, but axis_of_column() knows them.
 const std::vector<std::string>& columns_from_zero();
 
 }  // namespace grainreel

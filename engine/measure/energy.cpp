@@ -118,7 +118,7 @@ void EnergyBalance::look(std::int64_t step) {
         powers_.walls -= on_wall.dot(velocity_of_wall(around_, meshes, c, pose));
         if (!c.rolling.isZero(0)) powers_.walls -= c.rolling.dot(spin_of_wall(around_, meshes, c, pose));
     });
-    // Grains::wall_work counts the last force for a whole step, but half of that is still to come.
+    // Grains::wall_work counts the last force for a whole step, but half of that step is still to come.
     note_traffic();
     terms_.wall_work = wall_work(grains_) + traffic_.work_out - half_step_ * powers_.walls - work_at_start_;
 }

@@ -1,5 +1,5 @@
-// Energies of the grains (J), and the energy balance of a run. Both look at the contacts through the step
-// loop.
+// Energies of the grains (J), and the energy balance of a run. The elastic energy and the balance look at the
+// contacts through the step loop.
 #pragma once
 
 #include <cstdint>
@@ -40,13 +40,14 @@ double total_energy(const Surroundings& around, const Grains& grains, const Step
 // The energy balance of a run, term by term. The energy that walls give and contacts take is measured at the
 // contacts; no term is inferred from the others. The residual is the error of the finite step.
 //
-// Latching takes the area between the slopes of its law, (K1/2)(1 - e^2) a_max^2, as a_max grows. Friction
-// takes T . ds minus the energy that its springs keep. Dashpots take their force times velocity, and walls
-// give their force times the wall's velocity. These three are summed by the trapezoidal rule over the steps.
-// With velocity Verlet the step itself follows this rule: sum dt F . v is the change of m v^2 / 2 to the last
+// Latching is unloading along a steeper line than loading, as in the law of Walton and Braun. It takes the
+// area between the two lines, (K1/2)(1 - e^2) a_max^2, as the largest overlap a_max grows. Friction takes T .
+// ds minus the energy that its springs keep. Dashpots take their force times velocity, and walls give their
+// force times the wall's velocity. These three are summed by the trapezoidal rule over the steps. With
+// velocity Verlet the step itself follows this rule: sum dt F . v is the change of m v^2 / 2 to the last
 // digit, except for m (dt a)^2 / 8 at either end (by expanding Swope et al. 1982, J. Chem. Phys. 76, 637).
 struct EnergyTerms {
-    double kinetic = 0, rotational = 0, gravitational = 0, stored = 0;  // J, now
+    double kinetic = 0, rotational = 0, gravitational = 0, stored = 0;  // J, at the last step noted
 
     // J, since the balance began.
     double wall_work = 0;  // done by moving walls on the grains, also through friction
@@ -60,7 +61,7 @@ struct EnergyTerms {
     double held() const { return kinetic + rotational + gravitational + stored; }
     double lost() const { return latching + friction + damping; }
 
-    // Calls of() for every number once, for saving and loading.
+    // Calls of() once for every number. The order is that of the checkpoint.
     template <class Terms, class Each>
     static void each(Terms& t, const Each& of) {
         of(t.kinetic), of(t.rotational), of(t.gravitational), of(t.stored), of(t.wall_work), of(t.latching);
@@ -103,7 +104,7 @@ class EnergyBalance {
         Kept kept;
     };
 
-    // W, at one step.
+    // Powers (W) at one step.
     struct Powers {
         double walls = 0, damping = 0;
     };

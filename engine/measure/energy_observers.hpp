@@ -8,7 +8,8 @@
 
 namespace grainreel::observers {
 
-// Observer of the energies of the grains, the work of moving walls, and the rest of that balance.
+// Observer of the energies of the grains, the work of moving walls, and the energy lost, which is inferred as
+// the rest of this balance.
 class Energies final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {

@@ -19,7 +19,8 @@ struct HealthLimits {
     double overlap = 1.0 / 3.0;        // largest overlap, as a share of the smaller radius
     std::vector<std::string> species;  // names, for messages
     double safe_speed = std::numeric_limits<double>::infinity();       // m/s, relative speed of two grains:
-                                                                       // no impact below it overlaps so far
+                                                                       // impacts below it do not reach
+                                                                       // `overlap`
     double smallest_radius = std::numeric_limits<double>::infinity();  // m
     double wall_speed = 0;     // m/s, speed of the fastest wall with a motion of its own
     std::int32_t vessel = -1;  // number of the mesh that is closed around all grains, or -1
@@ -31,16 +32,17 @@ HealthLimits health_limits(const Scene& scene, const Plan& plan);
 // so fast that it may pass another between two steps.
 void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                  const StepLoop& loop, std::int64_t step);
-// The same where `show` shows the contacts, of which only the two bodies, overlap and smaller radius count.
+// The same with contacts that `show` shows. Only their two bodies, overlap and smaller radius are read.
 void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                  const ShowContacts& show, std::int64_t step);
 
-// Number of steps until the next look, such that no impact that overlaps too far begins and ends unseen.
-// There are many if the speeds are safe.
+// Number of steps until the next look, so short that no impact that overlaps too far begins and ends unseen.
+// While all speeds are safe, the next look is at the next multiple of 200 steps.
 std::int64_t steps_to_next_look(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                                 std::int64_t step);
 
-// The message for grains that gained energy (J) which no wall gave them; it names the fastest.
+// The message that the grains gained an energy (`gained`, J) which no wall gave them. It names the fastest
+// grain; `beside` stands in it in brackets.
 std::string energy_gained_text(const HealthLimits& limits, const Grains& grains, std::int64_t step,
                                double gained, const std::string& beside);
 
@@ -48,9 +50,10 @@ std::string energy_gained_text(const HealthLimits& limits, const Grains& grains,
 class EnergyWatch {
   public:
     // All values are in J. `energy` is the total energy, `work` the work done by walls so far, and `through`
-    // the sum of the magnitudes of all terms of both. Throws RunError if energy - work has risen too far
-    // above its lowest value so far. The limit is 5 % of the energy that was turned over and of the present
-    // motion, plus `allowance`, plus the possible rounding of the largest sum so far.
+    // the sum of the magnitudes of all terms of energy and work. Throws RunError if energy - work has risen
+    // too far above its lowest value so far. The limit is 5 % of the sum of two energies, plus `allowance`,
+    // plus the possible rounding of the largest `through` so far. One is the energy turned over so far (the
+    // largest fall of energy - work or the largest work); the other is the present kinetic energy.
     void check(double energy, double work, double through, double allowance, const HealthLimits& limits,
                const Grains& grains, std::int64_t step);
 

@@ -20,7 +20,7 @@ class Measures {
   public:
     using Names = std::shared_ptr<const std::vector<std::string>>;
 
-    // A value for each name.
+    // `values` has one value for each name.
     Measures(Names names, std::vector<double> values) : names_(std::move(names)), values_(std::move(values)) {
         GRAINREEL_CHECK(names_->size() == values_.size());
     }
@@ -86,7 +86,7 @@ inline void add_no_values(std::vector<double>& row, std::size_t columns) {
 
 // Fields are values of an observer place by place, on grids that stay the same for the whole run.
 
-// One direction of a grid: a place, a phase of the drive, a species.
+// One axis of a grid. Its coordinate may be a place, a phase of the drive or a species.
 struct FieldAxis {
     std::string name;        // "z", unique within an observer
     std::string unit;        // "m", "turns", "1"
@@ -109,7 +109,7 @@ struct FieldSet {
 };
 
 // The values of all fields of a set: for each field one value per cell, in the order of the field's axes; NaN
-// if there is none.
+// in a cell without a value.
 using FieldValues = std::vector<std::vector<double>>;
 
 }  // namespace grainreel

@@ -45,10 +45,10 @@ struct ObservedState {
     const Grains& grains;
     std::int64_t step;
     Vec3 gravity;            // m/s2
-    double period;           // m, of x; 0 for none
+    double period;           // m, period of x; 0 if x is not periodic
     Pose pose;               // pose of what the drive moves
     double start_energy;     // J, of all grains and contacts when the drive started
-    const Traffic& traffic;  // grains that came and left since then
+    const Traffic& traffic;  // grains that came and left since the drive started
     std::span<const Face> faces = {};
     const WallSums* wall_sums = nullptr;  // since the drive started; null unless an observer needs them
     // Surroundings and step loop of the run; null for a state that was made by hand.
@@ -71,10 +71,10 @@ class Observer {
     // Called before the first contact of a moment.
     virtual void begin(const ObservedState&) {}
     virtual void contact(const ObservedState&, const ContactView&) {}
-    // Called after the last contact. Adds a value for each of the observer's columns to `row`.
+    // Called after the last contact. Adds one value for each column to `row`, in the order of columns().
     virtual void look(const ObservedState& moment, std::vector<double>& row) = 0;
 
-    // For an observer of fields. fields() describes them and stays the same for the whole run.
+    // For an observer of fields: fields() describes its fields and stays the same for the whole run.
     // look_at_fields() gives the values at a moment, and is called in place of look(), after the same calls.
     virtual const FieldSet* fields() const { return nullptr; }
     virtual FieldValues look_at_fields(const ObservedState&) { return {}; }

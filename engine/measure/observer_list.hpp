@@ -1,5 +1,5 @@
-// Every observer of measures.csv, in the order of the columns. A new observer is a class beside its formula;
-// its include and its name go here.
+// Every observer of measures.csv, in the order of the columns. A new observer is a class beside its formulas;
+// its include and its name are added here.
 //
 // Two files read this list. columns.cpp uses only static members of each observer, so it needs no step loop.
 // observers.cpp makes the observers.

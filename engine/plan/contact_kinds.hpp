@@ -26,8 +26,8 @@ struct ContactKind {
     double smaller_diameter() const;   // m, the mean diameter of the smaller species
 };
 
-// There is no kind for a species of a single grain with itself, and no kind "a wall" where the scene has
-// neither a container nor a plane.
+// There is no kind for a species of a single grain with itself, none for a species without free grains, and
+// no kind "a wall" where the scene has neither a container with faces nor a plane.
 std::vector<ContactKind> contact_kinds(const Scene& scene, const Plan& plan);
 
 // Share of all contacts between grains that each species has; 0 for a species that is only glued to walls.

@@ -98,9 +98,9 @@ double approach(double restitution, double before, double at) {
     return at;
 }
 
-// The narrowest bracket that is certain to hold. The integration ends with a whole step, so the restitution
-// jumps by up to 1e-6 where the number of steps changes. The wide bracket is wide enough for such jumps. The
-// narrow one is just wider than rounding, and is certain if no jump lies within the wide one.
+// The narrowest bracket that certainly holds the wanted damping. The integration ends with a whole step, so
+// the restitution jumps by up to 1e-6 where the number of steps changes. The wide bracket is wide enough for
+// such jumps. The narrow one is just wider than rounding, and is certain if no jump lies within the wide one.
 Bracket hertz_bracket(double restitution, double damping) {
     constexpr double wide = 1e-5, narrow = 3e-13;  // as a share of the damping
     Bracket known;

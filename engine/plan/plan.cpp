@@ -18,9 +18,9 @@
 namespace grainreel {
 namespace {
 
-constexpr double most_steps = 9e15;  // up to here a double counts steps exactly, and so their times
+constexpr double most_steps = 9e15;  // a double counts up to so many steps exactly
 constexpr double most_records =
-    1e9;  // in one file: 400 GB of measures; NetCDF can number about twice as many
+    1e9;  // records in one file: so many rows of measures take 400 GB; NetCDF can number about twice as many
 constexpr double frames_without_drive = 1.0 / 30, rows_without_drive = 0.01;  // s
 
 // The stiffness that a kind of contact takes from the start file where the scene gives none.

@@ -12,8 +12,8 @@
 
 namespace grainreel {
 
-// The force law that the engine computes for one kind of contact: the simplest that does what the scene
-// asks for.
+// The law of the normal force for one kind of contact. The plan takes the simplest law that does what the
+// scene asks for.
 enum class NormalForce {
     walton_braun,
     walton_braun_corrected,
@@ -40,7 +40,8 @@ struct PairPlan {
     double loading_stiffness = 0;    // N/m: K1 (Walton-Braun), kn (spring-dashpot), dN/da at the allowed
                                      // overlap of the smallest (Hertz)
     double unloading_stiffness = 0;  // N/m: K2 = K1 / e^2; equals K1 for laws with a dashpot
-    double hardening = 0;  // 1/m: S of K2 = K1 + S F_max, in place of a constant K2 (which then holds at v*)
+    double hardening = 0;  // 1/m: S of K2 = K1 + S F_max, in place of a constant K2 (unloading_stiffness is
+                           // then K2 at v*)
     std::vector<RestitutionPoint> restitution_table;  // in place of one e: K2 = K1 / e(v)^2
     double modulus = 0;                               // Pa, E* of Hertz
     double tangential_stiffness = 0;                  // N/m: K0 or kt; Mindlin: at the allowed overlap
@@ -139,7 +140,7 @@ struct Plan {
 // Plans the scene's run; reads the file that it starts from, if there is one (engine/start/start_plan.cpp).
 // Throws UserError when the scene cannot be run as it stands (does not fit, too many steps, no stiffness).
 Plan make_plan(const Scene& scene);
-// The same, if the facts about the start file are known already. Leaves Plan::start as it is.
+// The same with facts about the start file that are known already. Does not fill in Plan::start.
 Plan make_plan(const Scene& scene, const StartFacts& file);
 
 }  // namespace grainreel

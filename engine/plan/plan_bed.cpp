@@ -203,8 +203,8 @@ double drop_below(const Scene& scene) {
 
 namespace {
 
-constexpr double lowest = 2, highest = 6;  // in largest diameters
-constexpr double thin = 0.05;              // solid share of the layer
+constexpr double lowest = 2, highest = 6;  // bounds of the layer of rain above the bed, in largest diameters
+constexpr double thin = 0.05;              // solid share of this layer
 
 // Area (m2) of the room's level section, the mean over its height.
 double mean_area(const Scene& scene) {

@@ -41,7 +41,8 @@ double rain_drop(const Scene& scene);
 // through.
 double rain_rate(const Scene& scene);
 
-// How long (s) a grain may find no place before rain gives up: five times a fall through the layer.
+// How long (s) a grain may find no place before rain gives up: five times a fall from the layer's top to the
+// bed.
 double rain_patience(const Scene& scene);
 // The limit of rain (s): twice the time that it needs if every grain finds its place at once, plus
 // rain_patience().

@@ -44,7 +44,7 @@ struct Stiffness {
     std::string reason;
 };
 
-// A stiffness that grows with every demand made of it.
+// The largest of several demanded stiffnesses, with its reason.
 class Demands {
   public:
     void add(double value, const char* reason) {
@@ -61,7 +61,7 @@ void demand_stiffness(const Scene& scene, const BedPlan& bed, const PairContact&
     const double eps = scene.run.overlap;
     demands.add(t.effective_mass * std::pow(bed.impact_speed / (eps * t.diameter), 2), "impact");
     demands.add(static_load(bed, t.diameter) / eps, "static load");
-    if (bed.gravity == 0) return;  // t_c <= 0.1 d / (f h)
+    if (bed.gravity == 0) return;  // the condition of waves is t_c <= 0.1 d / (f h)
     const double share = contact_time_factor(contact) * bed.frequency * bed.height / (0.1 * t.diameter);
     demands.add(t.effective_mass * share * share, "wave");
 }

@@ -11,11 +11,11 @@
 namespace grainreel {
 namespace {
 
-// Factor on the step of free pairs: it stays well below the stable limit, so that the stiffest branch is
-// followed too.
+// The step times the angular frequency of a free pair. It stays well below the stable limit, so that the
+// stiffest branch of a law is followed too.
 constexpr double pair_share = std::numbers::pi / 2 / 2.75;
-// Factor on the step that the bed's fastest mode allows. That mode matters only for stability, not for
-// accuracy.
+// The step times the angular frequency of the bed's fastest mode. That mode matters only for stability, not
+// for accuracy.
 constexpr double bed_share = 1.2;
 // Factors on the step at which dashpots would let the motion grow. Sideways, Coulomb's law limits their
 // force, and no bed has twelve contacts for each grain: 300 grains of e = 0.165 blew up only from 2.4 times

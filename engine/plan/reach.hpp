@@ -7,13 +7,14 @@
 
 namespace grainreel {
 
-// Top of the bed at rest: m above the floor's rest position. Empty where the grains' volume does not tell
-// it: in empty space, without gravity along -z, or with planes of the scene's own.
+// Top of the bed at rest: m above the floor's rest position. Empty where the grains' volume does not tell it:
+// in empty space, without gravity about along -z, with planes, with meshes beside the container, or where the
+// container turns.
 std::optional<double> resting_top(const Scene& scene);
 
 // The height that grains reach in flight: m above the floor's rest position. Empty as above.
-// Where the bed is shaken at more than g, grains at its top leave it at up to 1.6 times the plate's speed a
-// w, at most from the upper end of the stroke. This was measured in seven beds of 5 to 20 layers,
+// If the bed is shaken at more than g, grains at its top are taken to leave it at the upper end of the
+// stroke, at 1.6 times the plate's largest speed a w. This was measured in seven beds of 5 to 20 layers,
 // restitution 0.6 to 0.9 and Gamma 3 to 4: 99 of 100 grains stayed below what 1.2 to 1.7 times that speed
 // gives.
 // Shallow beds that carry waves throw single crests higher or less high than that, and no simple rule was

@@ -1,5 +1,5 @@
-// Values that can be run, but that nobody means: a unit left out, a factor of a thousand, a sign. Each line
-// has the figure and the likely slip.
+// Values that can be run, but that nobody means: a unit left out, a factor of a thousand, a sign. Each
+// warning names the figure and the likely slip.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -154,7 +154,7 @@ void look_at_drive(const Scene& scene, Warnings& warnings) {
                         1 / drive.frequency, scene.run.duration));
 }
 
-// The place of this key in the contact tables where it is written once, else [contact].
+// The path of the key `name` in a contact table, if the scene has it just once there; else that of [contact].
 std::string place_in_contact(const Scene& scene, const std::string& name) {
     std::vector<std::string> found;
     for (const auto& [path, at] : scene.written)

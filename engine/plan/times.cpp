@@ -12,7 +12,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr double most_bytes = 2e9;  // for sums; each phase has its own
+constexpr double most_bytes = 2e9;  // of memory for the sums of fields; each phase of the drive has sums of
+                                    // its own
 
 }  // namespace
 

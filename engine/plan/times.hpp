@@ -1,6 +1,6 @@
 // Times that a plan counts in steps: when fields are measured (FieldTimes), events that come again and again
 // (Rhythm), and the clock of a drive. A moment is a step at which fields are measured. A record is the mean
-// of many moments, over whole periods of the drive.
+// of many moments, over whole periods of the drive or, without a drive, over an interval.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct FieldTimes {
     bool ends_record(std::int64_t step) const;
     // The first end of a record at or after `step`; kNever after the last one.
     std::int64_t next_end(std::int64_t step) const;
-    // The step at which the record began that ends at this one.
+    // The step at which the record began that ends at step `end_of_it`.
     std::int64_t begin_of_record(std::int64_t end_of_it) const;
 
   private:
@@ -59,7 +59,8 @@ struct Rhythm {
 
     Rhythm(double every_steps, double every_periods = 0) : steps(every_steps), periods(every_periods) {}
 
-    // The first step, from `step` (not negative) on, that is nearest to a multiple.
+    // The first step, from `step` (not negative) on, that is nearest to a multiple of `steps` or of
+    // `periods`.
     std::int64_t next(std::int64_t step, const Clock& clock) const {
         if (periods > 0) {
             // The count begins one lower, so that rounding skips none.
@@ -76,10 +77,11 @@ struct Rhythm {
 
 // The clock that goes with a drive: how many steps its periods have, throughout all stages.
 
-// The number of steps in an eighth of a period at the drive's own frequency: `least` or somewhat more. It is
-// the first number for which the periods of all stages are multiples of 8 steps, and intervals between taps
-// are whole steps. If there is no such number within a few per cent, it is `least`; in some stages the
-// eighths of a period then fall between steps.
+// The number of steps in an eighth of a period at the drive's own frequency: `least` or somewhat more, and so
+// many that an eighth of a period in the fastest stage has a step. It is the first number for which the
+// periods of all stages are multiples of 8 steps, and intervals between taps are whole steps. If there is no
+// such number within a few per cent, it is the smallest that is allowed; in some stages the eighths of a
+// period then fall between steps.
 double common_eighths(const Drive& drive, double least);
 
 // step is in s, steps_per_period is of the drive's own frequency.

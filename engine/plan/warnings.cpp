@@ -1,5 +1,5 @@
-// Warnings of what will run, but perhaps not as one wishes. What would go wrong in a run without stopping it
-// is said before the run.
+// Warnings of what will run, but perhaps not as one wishes. They tell before the run what would go wrong in
+// it without stopping it.
 #include "engine/plan/warnings.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,8 @@ bool only_the_drive_moves(const Scene& scene) {
     return !scene.container.outlet && scene.feeds.empty() && scene.start.method != Start::Method::grains;
 }
 
-// Whether a stage that begins at once takes the drive's place. A stage grows by itself.
+// Whether a stage that begins at once takes the drive's place. The change to a stage lets its amplitude grow,
+// without drive.ramp.
 bool is_replaced(const Drive& drive) {
     return drive.changes() && drive.stages.front().from <= 0;
 }
@@ -218,7 +219,7 @@ namespace {
 
 constexpr double alarming_overlap =
     0.05;  // as a share of the smaller diameter; 1 % is the usual aim for most contacts
-// docs/reference/stability.md has what each of these costs.
+// docs/reference/stability.md tells what contacts beyond the next two bounds cost.
 constexpr double alarming_turn = 0.05;   // periods that a contact with a moving wall lasts
 constexpr double alarming_flight = 0.2;  // diameters that a grain flies while a contact lasts
 constexpr double fewest_last_places =

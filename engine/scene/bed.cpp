@@ -16,8 +16,8 @@ double mean_cube(const SizeSpread& d) {
         case SizeSpread::Kind::normal:
             break;
     }
-    // The variance of a normal distribution that is cut off at two deviations, in units of the whole one's: 1
-    // - 4 phi(2) / erf(sqrt 2).
+    // The variance of a normal distribution that is cut off at two deviations, divided by that of the whole
+    // distribution, is 1 - 4 phi(2) / erf(sqrt 2).
     const double density_at_cut = std::exp(-2.0) / std::sqrt(2 * std::numbers::pi);
     const double variance =
         d.deviation * d.deviation * (1 - 4 * density_at_cut / std::erf(std::numbers::sqrt2));

@@ -24,8 +24,8 @@ PairContact glued_contact(const Scene& scene, std::size_t species);
 // top.
 double fill_height(const Scene& scene, double solid_fraction);
 
-// The width (m) of the walls that carry the bed sideways: the smaller of width and depth, or the width
-// alone when the depth is periodic.
+// The distance (m) between the walls that carry the bed sideways: the smaller of width and depth, or the
+// width alone when the depth is periodic.
 double bed_width(const Scene& scene);
 
 // The box around the container, the places to which it turns, and its meshes; in empty space, the box around
@@ -48,7 +48,7 @@ Extent extent_of(const Scene& scene);
 // for scenes with a tray.
 Container tray_container(const Scene& scene);
 
-// Diameters drawn from a species' spread.
+// Draws a diameter from a species' spread.
 
 double draw_diameter(const SizeSpread& spread, Random& random);  // m
 

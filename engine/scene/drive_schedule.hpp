@@ -1,8 +1,9 @@
 // What the drive does at which time: its stages one after the other, and the changes between them.
 //
 // A stage begins with the first period that starts at its `from` or later, and the change to it takes whole
-// periods. So each stretch of time begins at the drive's first phase, and the count of periods has no jump.
-// With taps, a period lasts from one tap to the next; at rest, the periods of the stage before go on.
+// periods. So each stretch of time begins at the phase that the drive has at the start of the run
+// (drive.phase), and the count of periods has no jump. With taps, a period lasts from one tap to the next; at
+// rest, the periods of the stage before go on.
 #pragma once
 
 #include <vector>

@@ -87,7 +87,8 @@ void FreeSpace::set_box(const Scene& scene) {
 }
 
 void FreeSpace::measure() {
-    // These are costly to test: a place in a mesh's room takes sixteen rays, one beside a solid takes one.
+    // Places near meshes are costly to test: one in a mesh's room takes sixteen rays, one beside a solid
+    // takes one.
     const bool dear = container_.shape == Container::Shape::mesh ||
                       std::any_of(meshes_.begin(), meshes_.end(),
                                   [](const Shared<Surface>& mesh) { return mesh->facts().closed(); });

@@ -48,9 +48,10 @@ class FreeSpace {
 // above the rim of an open vessel do not count; a closed vessel must be closed on all sides.
 //
 // There are two searches. The first walks from the room to the box around the vessel, in steps of a 32nd of
-// its size, and finds every hole in walls of any kind that is wider than a step. The second looks at each
-// open edge: it finds edges where, a diameter beyond the edge, the room meets the space outside. Sheets in
-// the room, seams whose vertices do not meet, and thick walls disturb neither search.
+// its size, and finds every hole in walls of any kind that is wider than a step and lets grains of 0.7 times
+// the diameter through. The second looks at each open edge: it finds edges where, a diameter beyond the edge,
+// the room meets the space outside. Sheets in the room, seams whose vertices do not meet, and thick walls
+// disturb neither search.
 std::optional<Vec3> leak_of(const Surface& surface, const EnclosedRoom& room, double diameter);
 
 }  // namespace grainreel

@@ -1,11 +1,11 @@
-// MotionPath, the motion of a body along a path from a file: places and orientations at rising times, joined
-// by a curve whose velocity and acceleration are continuous. BodyTurn, the steady turn of a body.
+// Motions that a body may have of its own. MotionPath follows a path from a file: places and orientations at
+// rising times, joined by a curve whose velocity and acceleration are continuous. BodyTurn is a steady turn.
 //
-// The file is CSV: a header of names, then rows. Its columns are time_s (or t), x_m, y_m, z_m (or x, y, z)
-// and, if wanted, qw, qx, qy, qz. Places count from the body's place at rest. The quaternion turns the body
-// about its pivot, which moves with it. The curve is a natural cubic spline (de Boor 1978, A Practical
-// Guide to Splines, ch. IV); the quaternion's four numbers have splines too and are then scaled to length
-// 1. Before the first time and after the last one the body stands still.
+// The file of a path is CSV: a header of names, then rows. Its columns are time_s (or t), x_m, y_m, z_m (or
+// x, y, z) and, if wanted, qw, qx, qy, qz. Places count from the body's place at rest. The quaternion turns
+// the body about its pivot, which moves with it. The curve is a natural cubic spline (de Boor 1978, A
+// Practical Guide to Splines, ch. IV). The quaternion's four numbers have splines too and are then scaled to
+// unit length. Before the first time and after the last one the body stands still.
 #pragma once
 
 #include <cstddef>
@@ -71,9 +71,10 @@ class MotionPath {
   public:
     // `pivot` (m, at rest) is the mesh's position. Throws UserError with file and line for: values that are
     // not numbers, times that do not rise or begin after 0, fewer than 4 rows, a quaternion that is no
-    // rotation, and jumps. A jump is a step of more than a twentieth of the path's size that is more than 20
-    // times as fast as those before and after it; a single row that lies as far from both its neighbours; or
-    // a turn of more than 2 rad from row to row, whose sense would be unclear.
+    // rotation, a path that at 0 s is not where the mesh rests, and jumps. A jump is a step of more than a
+    // twentieth of the path's size that is more than 20 times as fast as those before and after it; a single
+    // row that lies as far from both its neighbours; or a turn of more than 2 rad from row to row, whose
+    // sense would be unclear. Jumps of places are looked for only in files of 8 rows or more.
     static std::shared_ptr<const MotionPath> read(const std::filesystem::path& file,
                                                   const Vec3& pivot = Vec3(0, 0, 0));
 
@@ -81,8 +82,8 @@ class MotionPath {
     const Vec3& pivot() const { return pivot_; }     // m, at rest
     double first() const { return times_.front(); }  // s
     double last() const { return times_.back(); }    // s
-    // Largest speeds, looked up at sixteen times between every two rows. No point at a distance r from the
-    // pivot is faster than top_speed() + r * top_spin().
+    // Largest speeds, looked up at sixteen times between every two rows. A point at a distance r from the
+    // pivot is at most top_speed() + r * top_spin() fast at these times.
     double top_speed() const { return top_speed_; }  // m/s, of the pivot
     double top_spin() const { return top_spin_; }    // rad/s
     bool turns() const { return !turns_.empty(); }
@@ -112,7 +113,8 @@ struct PathRows {
     std::vector<int> lines;  // line number in the file, from 1
     std::vector<double> times;
     std::vector<Vec3> places;
-    std::vector<Eigen::Vector4d> turns;  // unit, w first, each on the side of the one before; or none at all
+    std::vector<Eigen::Vector4d> turns;  // unit, w first, each with the sign that is nearer to the one
+                                         // before; empty if the body does not turn
 };
 
 // Throws UserError as MotionPath::read does.

@@ -61,8 +61,8 @@ struct Species {
 
 enum class NormalLaw { walton_braun, spring_dashpot, hertz };
 enum class TangentialLaw { incremental_slip, linear_spring, mindlin, none };
-// Where forces act: at the contact plane (keeps angular momentum), or at the full radius, as in the
-// original program.
+// Where forces act: at the contact plane, which keeps angular momentum, or at the full radius, as in the
+// original program (docs/notes/step.md compares it with this one).
 enum class LeverArms { contact_plane, radius };
 
 constexpr std::size_t kTablePoints = 8;  // largest number of points of a restitution that depends on speed
@@ -298,7 +298,8 @@ struct Start {
 // The method that makes the step; see engine/step/motion/scheme.hpp.
 enum class Integrator { velocity_verlet, leapfrog, position_verlet, forest_ruth, gear };
 
-// The default level for stiffness, step and corrections; docs/reference/accuracy.md has what each costs.
+// The level that decides the defaults of stiffness, step and corrections; docs/reference/accuracy.md has what
+// each costs.
 enum class Accuracy { draft, standard, reference };
 
 // mixed: contact laws, their histories and relative motion in single precision, all else in double.
@@ -337,7 +338,7 @@ struct Output {
     bool operator==(const Output&) const = default;
 };
 
-// What others, such as a film, need from a run in addition to what [output] asks for.
+// What a film or other users of a run need in addition to what [output] asks for.
 struct Wishes {
     std::vector<std::string> instruments;  // also measured
     bool orientation = false;              // also kept, in frames and files

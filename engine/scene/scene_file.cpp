@@ -143,6 +143,7 @@ void read_scene_into(Scene& scene, const NamedText& from, const Assignments& set
     scene.name = from.file.stem().string();
     scene.file = from.file.string();
     scene.written = document.written();
+    // The order matters: a reader may use what those before it have read, such as species and meshes.
     read_top_level(document, scene);
     read_species(document, scene, further);
     read_meshes(document, scene);
@@ -169,6 +170,7 @@ void read_scene_into(Scene& scene, const NamedText& from, const Assignments& set
     if (further != nullptr) further->check();
 }
 
+// The order of the lists is that of docs/reference/scenes.md.
 const std::vector<Key>& scene_keys() {
     static const std::vector<Key> keys = [] {
         std::vector<Key> all;

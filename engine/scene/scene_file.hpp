@@ -21,9 +21,9 @@ constexpr std::size_t largest_scene_file = 16u << 20;
 // through.
 enum class Pipes { refused, taken };
 
-// Reads the text. Throws UserError when there is no such file, when it is something else (a folder, a device
-// that has no end, a pipe where these are refused), when it is larger than largest_scene_file or cannot be
-// read, and when a signal comes while the program waits for a pipe.
+// Reads the text of a scene file. Throws UserError when there is no such file, when it is something else (a
+// folder, a device that has no end, a pipe where these are refused), when it is larger than
+// largest_scene_file or cannot be read, and when a signal comes while the program waits for a pipe.
 std::string load_scene_file(const std::filesystem::path& file, Pipes pipes = Pipes::refused);
 
 class TableReader;

@@ -147,8 +147,8 @@ class HeldHistories {
     const ContactRules rules_, rules_there_;
     const bool same_glued_;
     const std::vector<std::int32_t> mesh_;   // the number here of each mesh of the origin; -1 for none
-    std::vector<Bodies> in_several_places_;  // pairs of a grain and a mesh with several contacts: no history
-                                             // can be told from the others
+    std::vector<Bodies> in_several_places_;  // pairs of a grain and a mesh with several contacts, whose
+                                             // histories cannot be told apart
     const std::vector<KeptContacts> kept_;
     std::unordered_map<Bodies, Held, HashOfBodies> held_;
 };
@@ -295,6 +295,7 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
         const PairPlan& pair = *found->second.pair;
         std::fill_n(to, group.history_size(), 0.0);
         to[0] = latched(pair, found->second.overlap, share);  // a_max, the first number of each such history
+        // The third number of WaltonBraunCorrected::History is the softness 1 / K2.
         if (pair.model.normal == NormalForce::walton_braun_corrected) to[2] = 1 / pair.unloading_stiffness;
         return true;
     });

@@ -120,7 +120,7 @@ Grains place_in_layers(const Scene& scene) {
 namespace {
 
 constexpr double kInflation = 1 + 1e-4;  // grains grow a little too large, then shrink clear of each other
-constexpr double kFirstShare = 0.5;      // share of the gap to the nearest neighbour, for the first radii
+constexpr double kFirstShare = 0.5;      // share of the distance to the nearest centre, for the first radii
 constexpr double kGrowthPerCycle = 0.02;
 constexpr int kStepsPerCycle = 40;
 constexpr std::int64_t kMostCycles = 5000;
@@ -163,8 +163,9 @@ struct Growing {
     }
 };
 
-// Sets the first radii: a share of the gap to the nearest neighbour, divided between the two in proportion
-// to their wanted radii, or a share of the gap to a wall.
+// Sets the first radii. A share of the distance to the nearest centre is divided between the two grains in
+// proportion to their wanted radii. No radius is larger than the distance to a wall, nor smaller than a tenth
+// of the wanted radius.
 void first_radii(Growing& g, double reach) {
     Team alone(1);
     Cells cells;
@@ -204,7 +205,7 @@ void first_radii(Growing& g, double reach) {
     for (std::size_t i = 0; i < allowed.size(); ++i) g.set_radius(i, allowed[i]);
 }
 
-// The largest overlap, divided by the smaller of the two wanted radii.
+// The largest overlap, divided by the smaller of the two present radii.
 double largest_overlap(const StepLoop& loop) {
     double largest = 0;
     loop.visit_contacts(

@@ -1,5 +1,6 @@
-// Random centres in layers, one for each species, the biggest grains at the bottom (init1 of the original
-// program), and radius growth that clears their overlaps.
+// Random centres in layers, one for each species, the biggest grains at the bottom, and radius growth that
+// clears their overlaps. They correspond to init1, and to findrad, integ1 and integ2, of the original program
+// (docs/notes/step.md).
 #pragma once
 
 #include <functional>
@@ -12,17 +13,17 @@
 namespace grainreel {
 
 // Returns all grains of the scene at rest. Ids count from 0 in the order of the species; diameters are
-// drawn from the spread of each species. Centres are random in the species' layer, at least a quarter
-// radius (half a radius beside meshes) inside the container or the start's region, and outside meshes and
-// glued grains.
-// The layers share the container's lower part as the species share the solid volume, so all are equally
-// dense; the species with the largest mean diameter lies lowest. That part is as high as a loose crowd
-// needs (a third of its volume is solid), or the whole container; from higher up grains would only fall
-// longer. Grains may overlap freely: radius growth removes that.
+// drawn from the spread of each species. Centres are random in the species' layer, at least a quarter radius
+// (in scenes with meshes half a radius) inside the container or the start's region, outside meshes and, where
+// a place is found, outside glued grains. In thin layers and narrow rooms they may lie closer to walls.
+// The layers divide the container's lower part in proportion to the solid volumes of the species, so all are
+// equally dense. The species with the largest mean diameter lies lowest. The lower part is as high as a loose
+// crowd of the grains needs (a third of its volume is solid), and at most the whole container. From higher up
+// grains would only fall longer. Grains may overlap freely: radius growth removes that.
 Grains place_in_layers(const Scene& scene);
 
-// Radius growth (findrad, integ1 and integ2 of the original program): grains begin with radii that fit into
-// the gaps and grow to their wanted radii, while the contact law pushes those that overlap apart.
+// Radius growth: grains begin with radii that fit into the gaps and grow to their wanted radii, while the
+// contact law pushes those that overlap apart.
 
 struct GrowthReport {
     std::int64_t steps = 0;

@@ -1,4 +1,4 @@
-// Whether a mesh moves into another wall.
+// Checks before a run whether a mesh moves into another wall: check_mesh_paths() of mesh_checks.hpp.
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -31,8 +31,8 @@ RainReport rain(const Scene& scene, const Plan& plan, const Surroundings& around
 
 // Places for new grains in which they touch nothing.
 
-// Rain and feeds look for places every so many steps. Each time a place is found, the neighbour lists are
-// made anew.
+// Rain and feeds look for places only once in so many steps, because the neighbour lists are made anew each
+// time that grains come.
 constexpr std::int64_t kStepsPerLook = 200;
 
 // The box from low to high (m), with what is near it at one moment.

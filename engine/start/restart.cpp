@@ -77,6 +77,8 @@ void save_checkpoint(const std::filesystem::path& path, const Scene& scene, cons
 void save_checkpoint(const std::filesystem::path& path, const std::string& kept,
                      const CheckpointHeader& header, const Grains& grains, const StepLoop& loop,
                      const std::string& gathered, const std::vector<std::int64_t>& given) {
+    // CheckpointFile::read() and label_of_checkpoint() rely on this order. Another order needs another
+    // kVersion (checkpoint_file.cpp).
     std::ostringstream body;
     write_vector(body, std::vector<char>(kept.begin(), kept.end()));
     write_value(body, header);
@@ -155,7 +157,7 @@ bool lies_in(std::string_view key, std::string_view table) {
 
 using Value = std::pair<std::string, std::string>;
 
-// The keys and values in a text of the scene's writer, one a line, in its order.
+// The keys and values in a text that the scene's writer made, in its order. It writes one key on a line.
 std::vector<Value> values_of(std::string_view text) {
     std::vector<Value> values;
     std::map<std::string, int> elements;

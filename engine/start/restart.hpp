@@ -1,4 +1,4 @@
-// Checkpoints, and runs that start or go on from the end of an earlier one (init2 of the original program).
+// Checkpoints, and runs that start or go on from the end of an earlier one.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, 
 Grains grains_from_checkpoint(const Scene& scene);
 
 // The contacts that those grains had, group by group of the rules that the checkpoint's own scene gives.
-// They count grains in the same order. Throws as above.
+// Their bodies count grains in the order of grains_from_checkpoint(). Throws as above.
 std::vector<KeptContacts> contacts_from_checkpoint(const Scene& scene, const ContactRules& rules,
                                                    const WallParts& walls);
 

@@ -187,8 +187,8 @@ void check_faces(const Scene& scene, const std::vector<Face>& faces, const Grain
     }
 }
 
-// Whether a place is within a closed surface: a ray from there crosses it an odd number of times. No mesh
-// has edges along the direction of the ray.
+// Whether a place is within a closed surface: a ray from there crosses it an odd number of times. Hardly any
+// mesh has edges along the direction of the ray.
 bool is_within(const Surface& surface, const Vec3& place) {
     std::vector<Surface::Hit> hits;
     surface.all_hits(place, Vec3(0.3713906763541037, 0.5570860145311556, 0.7427813527082074), hits);

@@ -34,7 +34,7 @@ BodyPose Body::at(const Pose& drive) const {
         pose.rotation = Quaternion(Eigen::AngleAxisd(turn->angle_at(drive.time), turn->axis));
         pose.spin = turn->rate_at(drive.time) * turn->axis;
         const Vec3 arm =
-            pose.rotation * turn->through;  // minus the vector from the axis' point to the origin
+            pose.rotation * turn->through;  // vector from the body's origin to the point of the axis
         pose.place += turn->through - arm;
         pose.velocity -= pose.spin.cross(arm);
     }

@@ -17,7 +17,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::string_view kName = "grainrs";  // the same in every version; the version's digit follows
+constexpr std::string_view kName = "grainrs";  // the same in every version; kVersion follows
 constexpr char kVersion = 'b';
 
 template <class Grain, class Each>

@@ -14,6 +14,7 @@
 
 namespace grainreel {
 
+// The header is written as it lies in memory, so its members are a part of the file's format.
 struct CheckpointHeader {
     std::int64_t step = 0;
     double start_energy = 0;  // J, energy at the start of the energy balance

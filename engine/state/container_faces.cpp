@@ -131,7 +131,7 @@ std::vector<Face> tray_faces(const Scene& scene) {
         face.name = "tray " + face.name;
         face.body = {kTrayBody, false, Vec3(0, 0, 0)};
         face.point += down;
-        if (face.kind == Face::Kind::plane && face.normal.z() != 0) continue;  // not the floor
+        if (face.kind == Face::Kind::plane && face.normal.z() != 0) continue;  // the floor does not end
         face.ends = true;
         face.along = Vec3(0, 0, -1);
         face.edge = face.point;

@@ -24,10 +24,10 @@ struct Face {
     // Whether the face is a plate that ends. A grain touches such a plate, from either side, at its nearest
     // point, which may lie on an edge.
     bool ends = false;
-    Vec3 along{0, 0,
-               0};       // unit, in the face and perpendicular to its lower edge; zero if it has no such edge
-    Vec3 edge{0, 0, 0};  // m, a point of the lower edge
-    double gap = 0;      // m, half-width of a slot along x, or radius of a hole, about `point`; 0 for none
+    Vec3 along{0, 0, 0};  // unit, in the face, from the edge where it ends into the face; zero if it has no
+                          // such edge
+    Vec3 edge{0, 0, 0};   // m, a point of this edge
+    double gap = 0;       // m, half-width of a slot along x, or radius of a hole, about `point`; 0 for none
     bool round_gap = false;
 
     // Only for a face whose body turns; see set_reach().
@@ -100,9 +100,9 @@ std::vector<Face> tray_faces(const Scene& scene);
 // `faces` are those of container_faces(), perhaps with others after them, which stay as they are.
 void open_outlet(const Container& container, std::vector<Face>& faces);
 
-// The names of a scene's walls in the columns of measures and files: container and planes, in the order of
-// the surroundings' faces, then the meshes. Each is a part of a column's name ("left_slant"). No name comes
-// twice: the second of two walls with the same name is "NAME_2".
+// The names of a scene's walls in the columns of measures and files: container, planes and tray, in the order
+// of the surroundings' faces, then the meshes. Each is a part of a column's name ("left_slant"). No name
+// comes twice: the second of two walls with the same name is "NAME_2".
 std::vector<std::string> face_names(const Scene& scene);
 
 }  // namespace grainreel

@@ -12,7 +12,8 @@
 namespace grainreel {
 
 // Records have 32 or 64 bytes, so that the contact pass needs one aligned load per grain for each kind of
-// record. Motion and load have the same layout, number by number, for the integration.
+// record. Motion and load have the same layout, number by number, for the integration. Vector code reads
+// records by offset, so their members must keep their order.
 struct alignas(32) Place {
     Vec3 position;  // m
     double radius;  // m

@@ -53,6 +53,7 @@ struct NewGrain {
 };
 
 // The account of a run: what it had at its start, plus what came, less what left, is what it has now.
+// Checkpoints hold it as it lies in memory.
 struct Traffic {
     std::int64_t came = 0, left = 0;
     double energy_in = 0,

@@ -128,6 +128,7 @@ HWY_INLINE Bundle<size> multiply_add(Bundle<size> a, const Bundle<size>& b, cons
     for (int p = 0; p < a.parts; ++p) a.part[p] = hn::MulAdd(a.part[p], b.part[p], c.part[p]);
     return a;
 }
+// The larger of a and |b|, number by number.
 template <int size>
 HWY_INLINE Bundle<size> larger_size(Bundle<size> a, const Bundle<size>& b) {
     for (int p = 0; p < a.parts; ++p) a.part[p] = hn::Max(a.part[p], hn::Abs(b.part[p]));

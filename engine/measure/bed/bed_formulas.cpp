@@ -104,9 +104,10 @@ double PeriodMultiple::difference_to(int periods_before) const {
     return std::sqrt(sum / (kPhases * kWindow));
 }
 
-// Finds the number of periods after which the bed repeats itself. A multiple counts if it leaves at most half
-// of the difference. A drift grows with the number of periods and noise stays as it is, so neither makes a
-// multiple. A larger multiple is looked for only while more than a quarter of the difference is left.
+// Finds the number of periods after which the bed repeats itself. A multiple counts if its difference is at
+// most half of the difference of the multiple found before it, which is one period at first. A drift grows
+// with the number of periods and noise stays as it is, so neither makes a multiple. A larger multiple is
+// looked for only while the difference is more than a quarter of that of one period.
 int PeriodMultiple::multiple_now() const {
     int multiple = 1;
     double left = difference_;

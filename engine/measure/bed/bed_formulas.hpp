@@ -18,8 +18,8 @@ namespace grainreel {
 
 // Volume of the grains below `top`, divided by the container's volume between `floor` and `top` (both m, in
 // the frame of the scene). A grain that reaches through the plane z = top counts by its part below it: a cap
-// of height h of a sphere of radius r has the volume pi h^2 (3 r - h) / 3. NaN if there is no container, or
-// if `top` is not above `floor`.
+// of height h of a sphere of radius r has the volume pi h^2 (3 r - h) / 3. `top` counts at most as high as
+// the container. NaN if there is no container, or if `top` is not above the container's base.
 double solid_fraction(const Container& container, const Grains& grains, double floor, double top);
 
 // How the contacts between grains are oriented.
@@ -37,7 +37,7 @@ class Fabric {
     // All NaN without contacts.
     Eigen::Matrix3d tensor() const { return sum_ / contacts_; }
     // Largest minus smallest eigenvalue of F: 0 without a preferred direction, 1 when all normals are
-    // parallel.
+    // parallel. NaN without contacts.
     double anisotropy() const;
     // F_zz, the mean square of the cosine between a normal and the vertical: 1/3 without a preferred
     // direction, 1 when all normals are vertical.
@@ -76,13 +76,14 @@ class Flight {
 
     explicit Flight(std::int64_t period) : least_(period / 16) {}
 
-    // Adds the stretch from step `from` to the first step of the next call.
+    // Adds the stretch that begins at step `from` and ends where the stretch of the next call begins.
+    // `carried` is the mean force on the floor in it, divided by the weight.
     void add(std::int64_t from, double carried);
 
     // The last flight that has ended.
     std::optional<Times> last() const { return state_.any ? std::optional(state_.last) : std::nullopt; }
 
-    // Everything it knows, for the checkpoint.
+    // Everything that a Flight knows. Checkpoints hold it as it lies in memory.
     struct State {
         bool flying = false;
         std::int64_t since = 0;  // step at which the present flight began
@@ -108,9 +109,10 @@ class PeriodMultiple {
     static constexpr int kPhases = 8;   // moments in a period, evenly spaced
     static constexpr int kMost = 4;     // largest multiple that can be found, periods
     static constexpr int kWindow = 4;   // periods over which differences are taken
-    static constexpr int kConfirm = 3;  // periods for which a first multiple must have held ...
-    static constexpr int kChange =
-        10;  // periods for which another multiple must have held, so that a short slip does not count
+    static constexpr int kConfirm = 3;  // periods for which a multiple above 1 must have held before value()
+                                        // leaves 1
+    static constexpr int kChange = 10;  // periods for which another multiple must have held before value()
+                                        // changes again, so that a short slip does not count
 
     // `diameter` (m) is that of a grain. Periods that differ by less than a tenth of it are equal.
     explicit PeriodMultiple(double diameter) : least_(0.1 * diameter) {}
@@ -124,7 +126,7 @@ class PeriodMultiple {
     // Root mean square difference (m) between a period and the one before it.
     double difference() const { return difference_; }
 
-    // Everything it knows, for the checkpoint.
+    // Saves and loads everything that it knows, for the checkpoint.
     void save(std::ostream& out) const;
     void load(Bytes& in);
 

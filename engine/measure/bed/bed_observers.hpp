@@ -114,7 +114,7 @@ class BedMotion final : public Observer {
         if (has_floor(m)) floor_ = floor_of(m);
     }
     // Mean force of the grains on the floor along gravity since the last look, divided by their weight. The
-    // sums are those of walls/wall_forces_observer.hpp.
+    // sums are those that walls/wall_forces_observer.hpp describes.
     double carried(const ObservedState& m) const {
         const FaceSums& now = floor_of(m);
         double counts = 0, mass = 0;  // counts times m/s2
@@ -210,7 +210,7 @@ class CentreOfMass final : public Observer {
     }
 };
 
-// Observer of the mean place of the grains of each species. Every grain has the same weight.
+// Observer of the mean place of the grains of each species. Every grain counts alike, whatever its mass.
 class SpeciesPlaces final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene& scene) {

@@ -21,7 +21,7 @@
 //   contact stress     < sum over contacts  f x integral over s of W_s (b + (r - r_i - s b) d(ln w_s)/ds) >
 //
 // By continuity the divergence of the integral is W_i - W_j, so the balance of momentum holds as with one
-// width. The integral over space is b.
+// width. Integrated over all space, it gives b.
 //
 // Density and solid fraction take the kernel that is clipped at the walls: it is scaled for each grain so
 // that all of it lies inside, and the sum of density x inside share x cell volume is the mass of the grains.
@@ -54,7 +54,7 @@ struct FieldContact {
     Vec3 begin;   // m, the grain's centre
     Vec3 branch;  // m, from there to the other grain's centre, or to the point of the wall that it touches
     Vec3 force;   // N, on the other body
-    double radius = 0, other_radius = 0;  // m, of both grains; at a wall both are the grain's
+    double radius = 0, other_radius = 0;  // m, radii of the two grains; at a wall both are that of the grain
 };
 
 // The grains and contacts of one moment.

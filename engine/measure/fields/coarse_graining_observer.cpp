@@ -88,6 +88,8 @@ FieldValues coarse_field_values(const std::optional<CoarseFields>& fields, const
 
 namespace {
 
+// All settings on which the sums depend. If one were missing here, a run could go on with sums of other
+// fields.
 std::vector<double> settings_of(const Scene& scene, const FieldTimes& times) {
     const FieldOutput& fields = scene.output.fields;
     return {kernel_width(fields.width, 0.5 * largest_diameter(scene)),

@@ -53,7 +53,7 @@ inline FieldContact field_contact(const ObservedState& moment, const ContactView
 // Names and units of the fields of coarse-graining, as files have them.
 FieldSet coarse_field_set(const Scene& scene, const CoarseGraining& by);
 
-// The values in the order of that set. Without `fields` all are NaN.
+// The values in the order of coarse_field_set(). Without `fields` all are NaN, except the cells' volumes.
 FieldValues coarse_field_values(const std::optional<CoarseFields>& fields, const CoarseGraining& by);
 
 // Gathers moments while a run goes on, and computes the mean of each record when the record ends.
@@ -80,7 +80,7 @@ class FieldMeans {
 
   private:
     FieldTimes times_;
-    std::vector<double> settings_;  // tell saved sums from those of other fields
+    std::vector<double> settings_;  // saved with the sums; load() ignores sums with other settings
     CoarseGraining sums_;
     void load_last(Bytes& in);
 

@@ -132,7 +132,8 @@ double share_between(const GridAxis& axis, std::int64_t k, double low, double hi
     return std::clamp((std::min(high, begin + axis.cell) - std::max(low, begin)) / axis.cell, 0.0, 1.0);
 }
 
-// Area that a disc about the origin shares with the rectangle from the origin to (x, y), signed as x y is.
+// Area that a disc about the origin shares with the rectangle from the origin to (x, y), with the sign of x
+// y.
 double quarter_area(double radius, double x, double y) {
     const double sign = (x < 0 ? -1.0 : 1.0) * (y < 0 ? -1.0 : 1.0);
     const double a = std::min(std::abs(x), radius), b = std::min(std::abs(y), radius);

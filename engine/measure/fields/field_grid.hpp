@@ -38,8 +38,8 @@ struct FieldGrid {
     int dimensions() const;
 };
 
-// The outermost cells inside end at the container's walls, and beyond each wall there are as many more as the
-// kernel of the largest grain reaches, because stress is spread beyond the walls too.
+// The container is filled by whole cells from wall to wall. Beyond each wall there are as many more cells as
+// the kernel of the largest grain reaches, because stress is spread beyond the walls too.
 FieldGrid make_field_grid(const Scene& scene, const FieldOutput& fields);
 
 // Share of each cell that is inside the container at rest, 0 to 1. If only the floor moves, the container
@@ -48,7 +48,7 @@ std::vector<double> inside_shares(const FieldGrid& grid, const Scene& scene);
 
 // The kernels of coarse-graining, by which a grain, taken as a point, is spread over its surroundings.
 //
-// Both are radial, in two or three dimensions, and end at a cutoff. Only their shape matters here: a
+// Both kernels are radial, in two or three dimensions, and end at a cutoff. Only their shape matters here: a
 // footprint (footprint.hpp) scales the values to a sum of one over the cells of its grid.
 
 // Value of a kernel at a distance of q cutoffs, 0 <= q < 1; it is 1 in the middle.
@@ -68,8 +68,8 @@ inline double kernel_width(double width, double radius) {
 
 class FieldKernel {
   public:
-    // `width` (m) is the standard deviation along one axis, exactly for Lucy's kernel, and before the cutoff
-    // for the Gaussian. `dimensions` is 2 or 3.
+    // `width` (m) is the standard deviation along one axis. For the Gaussian it is that of the kernel without
+    // the cutoff. `dimensions` is 2 or 3.
     FieldKernel(FieldOutput::Kernel kind, double width, int dimensions);
 
     double width() const { return width_; }    // m
@@ -96,7 +96,7 @@ class FieldKernel {
 
     bool is_product_;
     double width_, cutoff_;       // m
-    double places_;               // 1/m2, entries for each square metre
+    double places_;               // 1/m2, entries of the table per square metre
     std::vector<double> values_;  // the table, with zeros at its end
 };
 

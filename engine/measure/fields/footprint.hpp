@@ -74,7 +74,8 @@ class Footprint {
     std::vector<double> values_;                  // values of the box, row by row
     std::array<std::vector<double>, 3> squares_;  // m2, distances along an axis
     std::vector<double> factors_;                 // factors along a row, for a kernel that is a product
-    std::vector<double> flows_;  // for each cell of the box x, y, z of the drift, and the weight
+    std::vector<double> flows_;  // four numbers for each cell of the box: x, y and z of the drift, then the
+                                 // weight
     std::vector<CellWeight> cells_;
     std::vector<CellWay> ways_;
 };

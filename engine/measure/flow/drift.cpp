@@ -14,7 +14,8 @@ namespace {
 constexpr double kCell = 2;  // diameters
 constexpr double kMostCells = 255;
 
-// Makes cells two mean diameters wide and high. Their number across is odd, so that one is in the middle.
+// Makes cells about two mean diameters wide and high. Their number across is odd, so that one is in the
+// middle.
 VelocityGrid cells_of(const Scene& scene) {
     VelocityGrid grid;
     const Container& c = scene.container;

@@ -99,7 +99,8 @@ class Drift {
     // Centre (m) of the roll in a half; y counts from the middle of the container, and z from its floor.
     RollCentre centre(Side half) const { return half == Side::left ? left_centre_ : right_centre_; }
 
-    // Everything it knows, for the checkpoint. Reading fails for anything that save() cannot have written.
+    // Saves and loads everything that it knows, for the checkpoint. Reading fails for anything that save()
+    // cannot have written.
     void save(std::ostream& out) const;
     void load(Bytes& in);
 

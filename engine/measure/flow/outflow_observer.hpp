@@ -52,8 +52,8 @@ class FedMass {
 namespace grainreel::observers {
 
 // The mass that has left is the mass at the start of the drive, plus what feeds have given since, minus the
-// present mass. If grains have come from elsewhere, it is not known, and all values are NaN. A grain that has
-// fallen below the floor into a tray has left.
+// present mass. If grains have come from anywhere but the feeds, this mass is not known, and all values are
+// NaN. A grain that has fallen below the floor into a tray has left.
 class Outflow final : public Observer {
   public:
     static constexpr const char* instrument = "outflow";
@@ -118,7 +118,8 @@ class Outflow final : public Observer {
         std::int64_t step = 0;
         WideInt gone = 0;
     };
-    // Members are saved one by one, because padding between them could have any bytes.
+    // Members are saved one by one, because padding between them could have any bytes. Their order is that of
+    // the checkpoint.
     template <class Self, class Each>
     static void name_all(Self& self, const Each& each) {
         each(self.quantum_), each(self.at_start_), each(self.most_), each(self.emptied_);

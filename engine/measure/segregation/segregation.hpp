@@ -23,9 +23,9 @@ inline constexpr int kLaceySample = 32;
 // of a mixture would look like samples of layers.
 inline constexpr double kLeastOfRareKind = 3;
 
-// The distribution of one kind of grain over samples of the bed. The samples have equal counts of grains,
-// kLaceySample or slightly more on average (at least two samples), cut by halving the bed along its longest
-// edge again and again.
+// The distribution of one kind of grain over samples of the bed. The bed is halved along its longest edge
+// again and again, until there are samples of equal counts: kLaceySample grains or slightly more on average.
+// A bed of fewer than two such samples is cut into two smaller ones.
 struct Samples {
     double share = 0;     // p, share of the marked grains among all, by number
     double variance = 0;  // s^2, variance of their share over the samples
@@ -36,6 +36,7 @@ struct Samples {
     }  // s0^2, if each sample were of one kind
     double rare_grains() const { return std::min(share, 1 - share) * grains; }  // mean per sample
 };
+// `marked` is 1 for the grains whose share is taken, and 0 for the others.
 Samples take_samples(const std::vector<Vec3>& position, const std::vector<std::uint8_t>& marked);
 
 // Lacey's mixing index M = (s0^2 - s^2) / (s0^2 - sr^2), sr^2 = s0^2 / n (Lacey 1954, J. Appl. Chem. 4, 257):
@@ -50,8 +51,8 @@ double intensity_of_segregation(const Samples& samples);
 
 // Probability that one of `these` lies above one of `those`, where equal heights count half: Mann and
 // Whitney's U divided by the number of pairs (1947, Ann. Math. Stat. 18, 50). It is 0 if all are below, 1/2
-// if mixed, 1 if all are above, and holds for a single grain too. NaN if either is empty. Reorders both
-// vectors.
+// if mixed, 1 if all are above, and has a meaning for a single grain too. NaN if either is empty. Reorders
+// both vectors.
 double share_above(std::vector<double>& these, std::vector<double>& those);
 
 // Height (m) below which 95 % of the grains' centres lie. It is the bed height by which the height difference

@@ -49,7 +49,8 @@ class NeighbourPairs {
         cells_.lay(place_, gap);
     }
 
-    // Calls see(a, b) for each pair once, with places in the given array.
+    // Calls see(a, b) once for each pair of neighbours. a and b are their indices in the array given to the
+    // constructor.
     template <class See>
     void each(const See& see) const {
         for (std::int32_t i = 0; i < static_cast<std::int32_t>(place_.size()); ++i) {

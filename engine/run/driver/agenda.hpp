@@ -20,7 +20,7 @@
 
 namespace grainreel {
 
-// A frame with only the ids, positions and bodies of this one.
+// A frame with only the moment (time, phase, poses of bodies), the ids and the positions of this one.
 Frame places_of(const Frame& frame);
 
 struct WantedMoment {

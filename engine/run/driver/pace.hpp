@@ -19,7 +19,7 @@ class Pace {
 
     // Notes that the last stretch had `steps` steps and took `seconds` seconds.
     void took(std::int64_t steps, double seconds) {
-        // At most four times more than before: one quick stretch says little about the next.
+        // At most four times as many as before: one quick stretch says little about the next.
         const double most = 4.0 * static_cast<double>(steps_);
         const double wanted = seconds > 0 ? static_cast<double>(steps) * stretch / seconds : most;
         steps_ = std::clamp(static_cast<std::int64_t>(std::min(wanted, most)), std::int64_t{1}, longest);
@@ -94,8 +94,8 @@ class StageTimes {
 
 // When a run writes its checkpoints. The second one comes 2 s after the first, the next after 4 s, 8 s, ...
 // 30 s, so that a killed run never loses much more than it has done. Checkpoints of the ring come in
-// addition. All together never take more than a hundredth of the run's time, because a checkpoint of a
-// million grains takes long.
+// addition. Because a checkpoint of a million grains takes long, the next one waits at least a hundred times
+// as long as the last one took. Those at the start and at the end of a run do not wait.
 class CheckpointPace {
   public:
     // Call this after a checkpoint that took `cost` seconds to write.

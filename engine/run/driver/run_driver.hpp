@@ -43,10 +43,10 @@ class RunDriver {
     // `previous` is as in keep_mesh_files().
     void use_folder(const FolderLock& folder, const std::string& program_version,
                     const std::filesystem::path& previous = {});
-    // Call this for a run that goes on, before use_folder(). It checks all files of the run, and keeps the
-    // state in which the folder is now until the run has gone past the step it had reached before (its former
-    // end). `hands_out` says whether frames will be handed out, so that film_moments.nc goes on. Throws
-    // UserError or RunError; nothing in the folder has changed then.
+    // Call this for a run that goes on, before use_folder(). It checks all files of the run. It also keeps
+    // the present state of the folder until the run has gone past the step that it had reached before (its
+    // former end). `hands_out` says whether frames will be handed out, so that film_moments.nc goes on.
+    // Throws UserError or RunError; nothing in the folder has changed then.
     void keep_former(const FolderLock& folder, bool hands_out, const std::string& program_version);
     // Whether the run goes on and has not yet reached its former end.
     bool is_behind_former() const { return former_kept_; }
@@ -99,7 +99,8 @@ class RunDriver {
     std::optional<std::string> packing_warning() const;
     // "trajectory.nc (4 frames), measures.csv (30 rows), ..."
     std::string files_text() const;
-    // Adds to the record what is known when the run begins, and when it has ended.
+    // describe() adds to the record what is known when the run begins, and conclude() what is known when it
+    // has ended.
     void describe(RunJson& record) const;
     void conclude(RunJson& record) const;
 

@@ -58,10 +58,11 @@ class FolderRun {
     FolderRun& operator=(const FolderRun&) = delete;
 
     struct Ended {
-        // 0, or 1 if the run failed on its way (its results are kept), or 129, 130 or 143 if it was asked to
-        // stop.
+        // 0; 1 if the run failed on its way (its results are kept); 2 if a mistake of the user stopped a
+        // resumed run before its former end; 129, 130 or 143 if the run was asked to stop.
         int exit_status = 0;
-        std::optional<std::filesystem::path> folder;  // empty once it has been removed or replaced
+        std::optional<std::filesystem::path> folder;  // empty once it has been removed or replaced, and with
+                                                      // status 2
     };
     // Runs; call it once. Throws UserError before there are results; nothing is on disk then.
     Ended run();
@@ -90,8 +91,8 @@ class FolderRun {
     virtual std::string stopped_text() const = 0;  // "stopped at 0.10 of 0.20 s"
     virtual void report_written() = 0;             // reports what was written
 
-    // Makes the folder. Call it when all input of the user has been accepted. `of` holds the name, and the
-    // lock of a run that goes on; the rest follows from the request.
+    // Makes the folder. Call it when all input of the user has been accepted. `of` holds the name, the place
+    // and, for a run that goes on, the lock. The command is added from the request.
     void make_folder(RunFolderRequest of);
     // From here on a mistake is a failure, and results are kept, also at a second signal.
     void mark_begun();

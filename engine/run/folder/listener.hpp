@@ -38,7 +38,7 @@ struct Progress {
     };
     Stage stage = Stage::growing;
     double done = 0;                              // share of this stage, 0 to 1
-    std::string what;                             // subject while charting, timing or studying
+    std::string what;                             // subject while charting, timing, studying or exporting
     double time = 0, end = 0;                     // s simulated, while vibrating
     double particle_steps_per_second = 0;         // 0 if not known yet
     std::int64_t frames = 0, frames_planned = 0;  // frames of the film; frames_planned is 0 without a film

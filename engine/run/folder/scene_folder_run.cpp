@@ -186,7 +186,8 @@ void SceneFolderRun::report_segregation() {
 
 namespace {
 
-// Both indices are 0 when segregated and 1 when mixed. They disagree if they are farther apart than this.
+// Lacey's index and that of unlike neighbours are 0 when segregated and 1 when mixed. They disagree if they
+// are farther apart than this.
 constexpr double wide_apart = 0.25;
 
 }  // namespace

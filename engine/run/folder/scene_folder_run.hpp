@@ -23,9 +23,8 @@ class SceneFolderRun : public FolderRun {
     // A new run, with as many threads as the scene says, or as are useful. Throws UserError for mistakes in
     // scene, plan or request. Nothing is on disk then. The listener must outlive the run.
     SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene, const Plan& plan);
-    // A run that goes on from `point` in the folder request.out, which is locked. What a film wants of the
-    // run is as before and stands in scene.wishes. Throws UserError or RunError; nothing in the folder has
-    // changed then.
+    // A run that goes on from `point` in the folder request.out, which is locked. scene.wishes must hold what
+    // a film wanted of the run before. Throws UserError or RunError; nothing in the folder has changed then.
     SceneFolderRun(const RunRequest& request, RunListener& listener, const Scene& scene, const Plan& plan,
                    ResumePoint point, std::shared_ptr<FolderLock> lock);
 

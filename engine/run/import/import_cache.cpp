@@ -68,6 +68,8 @@ std::vector<fs::path> files_behind(const fs::path& from, const ReadingOptions& o
     return files;
 }
 
+// All options as a text for the key. An import made with an option that is missing here would be found again
+// for any value of it.
 std::string text_of(const ReadingOptions& o) {
     std::string text = fmt::format("{} {} {} {} {} {} {} {}", o.one, o.units, o.radius.value_or(0),
                                    o.time_step.value_or(0), o.density.value_or(0), o.walls_scale.value_or(0),
@@ -158,7 +160,8 @@ ImportedRun cached_import(ImportRequest request) {
     std::error_code error;
     if (fs::exists(place / name / "scene.toml", error) && fs::exists(place / name / kImportNews, error))
         return found(place / name);
-    // Each process makes its own import, and the first that is finished gives it its name.
+    // Each process makes the import in a folder of its own. It then renames this folder to `place`, where it
+    // replaces what another process may have put there.
     const fs::path part = imports / fmt::format("{}.{}.part", place.filename().string(), ::getpid());
     fs::remove_all(part, error);
     request.folder = part / name;

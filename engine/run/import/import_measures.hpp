@@ -39,7 +39,7 @@ class ImportMeasures {
 // so that films can colour walls by them. LIGGGHTS writes them by dump mesh/vtk with `stress` and `wear`.
 class ImportWear {
   public:
-    // Whether some wall has stress or wear at each of its moments.
+    // Whether some wall has stress or wear at its first moment.
     static bool known(const ForeignArchive& archive);
 
     // `scene` is the scene of the imported run; its last meshes are the walls of the archive. Throws RunError
@@ -51,7 +51,7 @@ class ImportWear {
     // Writes the values at a moment of the archive. They count from the moment before until this one.
     void write(std::size_t moment);
 
-    // What the user should know about them, a line for each.
+    // What the user should know about these values, a line for each finding.
     std::vector<std::string> news() const;
 
   private:

@@ -57,7 +57,7 @@ class ImportRanges {
 std::optional<std::array<double, 2>> imported_range(const std::filesystem::path& run,
                                                     std::string_view quantity);
 
-// Whether a run was imported and one of these quantities is unknown in it.
+// Whether a run was imported and this quantity is unknown in it. Always false for "start-height".
 bool import_lacks(const std::filesystem::path& run, std::string_view quantity);
 
 }  // namespace grainreel

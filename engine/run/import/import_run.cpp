@@ -209,8 +209,8 @@ ImportedRun import_of(const ImportRequest& request, const ForeignArchive& archiv
 
 }  // namespace
 
-// In long files types are looked for only in some frames. If another frame has more types, all frames are
-// looked at.
+// In long files the types of grains are looked for only in some frames. If another frame has more types, all
+// frames are looked at.
 ImportedRun import_run(const ImportRequest& request) {
     try {
         return import_of(request, ForeignArchive(request.from, request.reading));

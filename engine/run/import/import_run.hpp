@@ -1,5 +1,5 @@
 // Turns frames of another program into the folder of a run: scene.toml, trajectory.nc, measures.csv, and
-// contacts.nc where contacts are known. After that everything works with it as with a run of ours.
+// contacts.nc where contacts are known. After that all commands that show or measure a run work with it.
 //
 // The copy costs as much disk space as the frames. In return no command needs code of its own for files of
 // other programs, any moment is found at once, and damaged frames are found before the first picture.
@@ -22,7 +22,8 @@ struct ImportRequest {
     ReadingOptions reading{};
     std::filesystem::path folder;  // the folder to make, which must not exist
     std::string program_version{};
-    // Called with the share that is done. If it returns false, the import stops and leaves nothing.
+    // Called with the share that is done. If it returns false, import_run() throws RunError and leaves
+    // nothing.
     std::function<bool(double)> watcher{};
 };
 
@@ -37,9 +38,9 @@ struct ImportedRun {
 ImportedRun import_run(const ImportRequest& request);
 
 // The same in the user's cache folder ($XDG_CACHE_HOME/grainreel/imports), where a later call with the same
-// files (by name, size, time and inode) and options finds it again. If all imports together exceed 4 GB,
-// those are removed that were not used for the longest time. Without a cache folder the import is made in the
-// temporary folder.
+// files (by name, size, time and inode), options and program version finds it again. If all imports together
+// exceed 4 GB, those are removed that were not used for the longest time. Without a cache folder the import
+// is made in the temporary folder.
 ImportedRun cached_import(ImportRequest request);
 
 // What is in that folder.

@@ -90,7 +90,8 @@ void add_row(std::string& text, double time, const BodyPose& pose) {
                         pose.rotation.w(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z());
 }
 
-// A name that a [[mesh]] may have: no face of the container, species or other mesh has it.
+// A name that a [[mesh]] may have: no face of the container, species or other mesh has it. The list of faces
+// holds the names that container_faces.cpp gives.
 std::string mesh_name(const std::string& wanted, const std::vector<std::string>& taken) {
     std::string bare = wanted;
     std::replace(bare.begin(), bare.end(), '_', ' ');
@@ -145,7 +146,7 @@ bool is_smooth(const fs::path& file, const std::string& wall, std::vector<std::s
     }
 }
 
-// The tables of the scene's text for its walls and their motions.
+// The scene's gravity and the tables for its walls and their motions, taken from the scene's text.
 std::string walls_and_drive(const std::string& text) {
     std::string kept;
     bool keep = false;

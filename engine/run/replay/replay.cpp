@@ -30,8 +30,8 @@ Scene started_from(const Scene& scene, const fs::path& checkpoint) {
     return there;
 }
 
-// Loads the last usable checkpoint at or before `step`. If there is none, throws the error of the last one
-// that was tried.
+// Loads the last usable checkpoint at or before `step`. If there is none, throws the error of the nearest
+// one, which was tried first.
 Simulation nearest_checkpoint(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,
                               int threads) {
     std::optional<UserError> mistake;

@@ -30,7 +30,7 @@ Plan plan_of_run(const Scene& scene, const std::filesystem::path& run);
 // Throws UserError if the checkpoint cannot be used.
 Simulation run_of_checkpoint(const std::filesystem::path& checkpoint, int threads);
 
-// Computes the run up to `step` from the last of these checkpoints that is not after `step`. Damaged
+// Computes the run up to `step` from the last checkpoint of `kept` that is not after `step`. Damaged
 // checkpoints are skipped. `run` is named in messages. Throws UserError if no checkpoint can be used, and
 // RunError if the run is not healthy or the watcher stopped it.
 Simulation replayed(const std::filesystem::path& run, const std::vector<KeptCheckpoint>& kept,

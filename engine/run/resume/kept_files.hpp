@@ -26,8 +26,8 @@ std::vector<std::int64_t> steps_in_trajectory(const std::filesystem::path& file)
 // The steps of the rows of measures.csv, up to the first damaged one; empty if there is no such file.
 std::vector<std::int64_t> steps_in_measures(const std::filesystem::path& file);
 
-// Checks the files that the run writes before any of them is changed. Throws UserError if one is missing or
-// cannot be read.
+// Checks the files that a resumed run goes on with. Call it before any of them is changed. Throws UserError
+// if one is missing or cannot be read.
 void check_files_of_run(const std::filesystem::path& run, const Scene& scene, const Plan& plan);
 
 // The step that a run has reached, by its last checkpoint and by the rows of measures.csv, because a

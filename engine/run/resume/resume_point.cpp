@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether a key may change: the number of checkpoints and of film moments that are kept.
+// Whether a key of [output] may change. Only the ring of checkpoints and film_moments.nc depend on these two,
+// and they need not go on as they began.
 bool may_change(const std::string& key) {
     return key == "output.checkpoints" || key == "output.film_moments";
 }
@@ -40,7 +41,7 @@ void check_same_files(const std::string& then, const Scene& scene, const Plan& p
 
 struct Limits {
     std::int64_t first = 0,
-                 film = 0;  // steps: the run's first one, and that of the last checkpoint its film can use
+                 film = 0;  // steps: where the run began, and the last one from which its film can go on
 };
 
 // Whether the run had ended at this checkpoint and is longer now. Its last record of fields may then have

@@ -179,6 +179,8 @@ namespace {
 
 constexpr int kFormat = 1;  // version of keys and files; to be raised if either changes
 
+// All numbers of a contact that act on a packing. A number that PairPlan gets for a law must be added here,
+// or a packing of other contacts could be taken from the cache.
 std::string text_of(const PairPlan& p) {
     std::string text = fmt::format(
         "{} {} {} {} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {:a} {}",

@@ -142,7 +142,8 @@ class Simulation {
     std::unique_ptr<Impl> impl_;
 };
 
-// Number of these processors to use. A thread with too few grains waits longer than it works.
+// Number of threads that are worth using on so many processors. A thread with too few grains waits longer
+// than it works.
 int useful_threads(int processors, std::int64_t grains);
 
 // Number of threads of a run that has the processors for itself: as many as the scene allows, or all that

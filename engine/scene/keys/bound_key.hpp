@@ -54,7 +54,7 @@ struct BoundKey {
 
     Key key;                     // its path is the name inside a table
     Keys parts;                  // keys of a value that may be a table itself
-    bool must_be_there = false;  // wherever the key means something
+    bool must_be_there = false;  // whether the key must be there wherever it means something
     Read read;
     Write write;                                     // value as TOML; empty: not written
     std::function<void(const T& from, T& to)> copy;  // copies this one member

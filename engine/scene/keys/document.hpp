@@ -51,11 +51,12 @@ class Document {
     // The value of a key, in its dimension's unit; none when absent. These functions throw UserError when
     // the value is not of the key's kind or outside its range.
     std::optional<double> quantity(const std::string& path);
-    std::optional<double> quantity(const std::string& path, Dimension dimension);  // that another key names
+    std::optional<double> quantity(const std::string& path, Dimension dimension);  // in a dimension that
+                                                                                   // another key names
     std::optional<std::int64_t> integer(const std::string& path);
     std::optional<bool> flag(const std::string& path);
     std::optional<std::string> text(const std::string& path);  // also choices
-    std::optional<Vec3> vector(const std::string& path);       // also gravity; each a quantity
+    std::optional<Vec3> vector(const std::string& path);       // also gravity; each number is a quantity
     std::optional<std::vector<std::string>> names(const std::string& path);
     // Rows of a speed (m/s) and a number, at most kTablePoints; empty when absent.
     std::vector<std::array<double, 2>> speed_table(const std::string& path);
@@ -65,7 +66,7 @@ class Document {
     std::vector<std::string> name_list(const std::string& path);      // empty when absent
     std::vector<std::int64_t> integer_list(const std::string& path);  // as above
     // Values of any kind as one line of TOML, from which an assignment can be made. Empty when absent.
-    // value_list throws UserError when the key is not a list, value when it is one.
+    // value_list() throws UserError when the key is not a list, and value() when it is a list or a table.
     std::vector<std::string> value_list(const std::string& path);
     std::string value(const std::string& path);
     // A value of any kind as TOML; empty when absent.

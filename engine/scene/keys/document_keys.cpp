@@ -78,8 +78,8 @@ toml::node* Document::step_into(toml::node& node, const std::string& part, const
                                 excerpt(part), array->size()));
 }
 
-// The table in which the last of `parts` lies, and its path with indices. The table is made if it is missing,
-// and if a key that may be a table has another value.
+// The table in which the last of `parts` lies, and its path with indices. The table is made if it is missing.
+// It also replaces another value of a key that may be a table.
 std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::string>& parts,
                                                          const Location& by) {
     toml::node* node = &root_;

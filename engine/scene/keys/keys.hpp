@@ -1,7 +1,7 @@
 // Keys of a scene file: what a key is, how lists of keys are made and searched, paths of keys, the words of
 // choices, and assignments from the command line. The reader, the search for the nearest key and the table in
 // docs/reference/scenes.md use one list, scene_keys(). Another kind of file (a study) has its own list. New
-// keys are added in the chapters, not here.
+// keys are added in engine/scene/chapters, not here.
 #pragma once
 
 #include <cstddef>
@@ -64,7 +64,8 @@ struct Key {
     std::string fallback_note;  // default in words: "required", "one period"
     std::string about;
     // Names of other keys in the same table. When the command line sets a key, the file loses what the key
-    // excludes, what excludes the key and, when its value changes, what belongs to that value (`owns`).
+    // excludes, what excludes the key and, when its value changes, what belonged to its former value
+    // (`owns`).
     std::vector<std::string> excludes, owns;
     bool decides = true;        // decides the future of a run, so a run that goes on must have the same value
     bool often_chosen = false;  // often chosen by the plan, for reasons that other keys give

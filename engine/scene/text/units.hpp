@@ -9,8 +9,8 @@
 
 namespace grainreel {
 
-// What a quantity measures. There are three dimensions of angles: in rad, in turns (phases of the drive),
-// and in degrees (camera).
+// What a quantity measures. The order is that of dimension_texts in units.cpp. There are three dimensions of
+// angles: in rad, in turns (phases of the drive), and in degrees (camera).
 enum class Dimension {
     length,
     time,

@@ -87,7 +87,8 @@ void note(const MeshFault& fault, std::optional<MeshFault>& first) {
     if (!first || (first->step < 0 && fault.grain < first->grain)) first = fault;
 }
 
-// This works because rows and histories hold a block's numbers in the same order.
+// Copies numbers of up to kBlock contacts side by side, because rows and histories hold a block's contacts in
+// the same order.
 template <class Number>
 void remember(const ContactGroup& group, const MeshTouch* touch, const ChunkMemory& memory, std::int32_t c,
               int count, Histories& histories) {

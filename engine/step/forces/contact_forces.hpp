@@ -19,8 +19,8 @@ namespace grainreel {
 
 // Grains that begin their next step while other grains still wait for forces.
 //
-// They are still in the cache then, so that each step reads the bed from memory once, not twice. No contact
-// that is still to be computed may need such a grain, and no other thread may read it.
+// The data of these grains are still in the cache then, so each step reads the bed from memory once, not
+// twice. No contact that is still to be computed may need such a grain, and no other thread may read it.
 //
 // What this gains: a rising bed of a million grains is some 1.07 times as fast, and a bed of 10,000 grains on
 // two threads 1.02 to 1.03 times. A bed on one thread that fits into the cache gains nothing and would take
@@ -49,8 +49,9 @@ inline void advance(Vanguard& vanguard, Grains& grains, std::int32_t complete) {
 void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& contacts, ChunkMemory& memory,
                         Vanguard& vanguard, CostClock& clock);
 
-// What add_new_contacts() is for other groups, for contacts with meshes: finds the patches that grains touch,
-// begins their contacts at the end of the table, and sets MeshLists::touch. It also notes the first fault.
+// Does for contacts with meshes what add_new_contacts() does for other groups. Finds the patches that grains
+// touch, begins their contacts at the end of the table, and sets MeshLists::touch. It also notes the first
+// fault.
 void find_patches(const ForceInput& in, std::size_t group, ThreadContacts& contacts, PatchMatcher& matcher);
 
 // Stores the patches in the histories of the chunk that begins at contact c. Call it after the chunk's law.

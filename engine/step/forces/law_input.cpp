@@ -83,7 +83,7 @@ void set_touch(const WallPose& pose, std::int32_t triangle, double distance, con
     touch.spin = pose.spin;
 }
 
-// The only contact of a grain that touched in the last step, if there is one.
+// The contact of a grain with a mesh that touched in the last step, if it was just one.
 struct LoneContact {
     std::int32_t number;
     Vec3 normal;

@@ -42,10 +42,11 @@ struct ForceInput {
 
 // Which patch of a mesh goes on with which contact of the step before.
 //
-// A contact goes on with the patch that has its triangle. If the normal has jumped, it goes on with the patch
-// whose normal is nearest to its own. If two contacts would go on with one patch, the contact with the larger
-// force does. Patches that are left over become new contacts, each with the lowest free number. The result
-// depends on the grain alone, not on the threads or on the order of the table.
+// A contact goes on with the patch that has its triangle. If no patch has it, or if its normal has turned by
+// more than 30 degrees, the contact goes on with the patch whose normal is nearest to its own, within 30
+// degrees. If two contacts would go on with one patch, the contact with the larger force does. Patches that
+// are left over become new contacts, each with the lowest free number. The result depends on the grain alone,
+// not on the threads or on the order of the table.
 
 // A patch that a grain touches now.
 struct MatchedPatch {

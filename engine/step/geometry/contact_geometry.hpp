@@ -66,8 +66,8 @@ std::uint64_t touching_glued(const Grains& grains, const std::int32_t* first, co
 void touch_glued(const GeometryInput& in, const GluedState& state, const std::int32_t* face, TouchChunk& out);
 
 // Contacts with walls of which some end at edges, for example the walls of a container with an open outlet.
-// In scenes without such walls, touch_walls() in wall_geometry.cpp does the work; it calls these functions
-// where a wall ends.
+// In scenes without such walls, touch_walls() in wall_geometry.cpp does the work; it calls these functions if
+// any wall ends.
 
 // Do what touching_walls() and touch_walls() do, for walls that end.
 std::uint64_t touching_plates(const Grains& grains, const std::int32_t* first, const std::int32_t* second,

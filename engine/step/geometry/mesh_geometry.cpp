@@ -13,6 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
+// Rounds numbers as the rows do; see as_held() in wall_point.cpp.
 template <class Number>
 HWY_INLINE Lanes as_held(Lanes a) {
     if constexpr (std::is_same_v<Number, float>) {

@@ -147,7 +147,8 @@ void sweep_velocities(const GeometryInput& in, const Places& at, TouchChunk& out
 }
 
 // Arms that end at the plane of the circle in which the two spheres intersect. The two arms add up to the
-// distance of the centres, and this conserves angular momentum. (The original program used the radii.)
+// distance of the centres, and this conserves angular momentum. (The original program used the radii; see
+// docs/notes/step.md.)
 template <class L>
 HWY_INLINE void to_contact_plane(L distance, L inverse, L& one, L& two) {
     one = L(0.5) * multiply_add((one - two) * (one + two), inverse, distance);

@@ -82,7 +82,7 @@ void Patches::find() {
         int& best = best_[group];
         if (best < 0 || comes_before(touching_[t], touching_[best], least_[group])) best = t;
     }
-    // By rising triangle.
+    // Adds the patches by rising triangle.
     for (int t = 0; t < count; ++t)
         if (const int group = group_of(t); best_[group] == t && is_minimum(t)) add_patch(group, t);
 }

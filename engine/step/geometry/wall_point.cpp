@@ -80,7 +80,7 @@ void set_copies_apart(const GeometryInput& in, TouchChunk& out) {
     for (int c = in.count; c % kBlock != 0; ++c) set_apart(in, c, out);
 }
 
-// A cylinder turns about its own axis only.
+// The point of a face that is nearest to the grain's centre. A cylinder turns about its own axis only.
 WallPoint point_of(const GeometryInput& in, int c, const WallState& walls) {
     const FaceRecord& face = walls.faces[static_cast<std::size_t>(in.second[c])];
     const WallPose& pose = walls.poses[static_cast<std::size_t>(in.second[c])];

@@ -31,7 +31,7 @@ void set_apart(const GeometryInput& in, int c, TouchChunk& out);
 void touch_turning_walls(const GeometryInput& in, const WallState& walls, TouchChunk& out);
 
 // A place at which a grain touches a mesh, as found in this step. The vector code loads it four numbers at a
-// time.
+// time, so its members must keep their order.
 struct alignas(64) MeshTouch {
     static constexpr double kApart = 1e300;
 

@@ -7,7 +7,7 @@ namespace grainreel {
 
 namespace {
 
-// The bound: 2^56 for each contact, times 2^20 contacts, times 2^44 steps.
+// The bound: 2^52 for each contact (WallTally::count()), times 2^24 contacts, times 2^44 steps.
 bool is_count(WideInt count) {
     constexpr WideInt kMost = static_cast<WideInt>(1) << 120;
     return count >= -kMost && count <= kMost;

@@ -31,7 +31,7 @@ struct WallScale {
 };
 
 // Sums over the evaluations of the forces. Each evaluation is weighted by the share of a step for which its
-// forces act.
+// forces act. Checkpoints hold these sums as they lie in memory.
 struct FaceSums {
     std::array<WideInt, 3> force{}, moment{};            // sums of all evaluations before the last
     std::array<WideInt, 3> last_force{}, last_moment{};  // those of the last evaluation
@@ -43,7 +43,7 @@ struct WallSums {
     double felt = 0;              // share of the last forces that has acted on the grains
     std::vector<FaceSums> faces;  // faces, then meshes, in the order of the surroundings
     std::vector<WideInt>
-        slices;  // normal forces by height, face after face, with those of the last evaluation
+        slices;  // normal forces by height, face after face, including those of the last evaluation
 };
 
 // Whether sums from a file could have been counted: they have `faces` faces, and no run makes them larger.

@@ -1,4 +1,5 @@
-// The state of the walls over one step, in the form that the vector code reads.
+// The state of the walls over one step, in the form that the vector code reads. It reads the aligned records
+// by offset, so their members must keep their order.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ struct alignas(64) FaceRecord {
 
 // The ends of a face; see Face. A face that does not end has no edge, no gap and two_sided = 0.
 struct alignas(64) FaceEnd {
-    Vec3 along;    // unit, perpendicular to the lower edge; zero without one
+    Vec3 along;    // unit, as Face::along; zero without an edge
     double level;  // m, along . a point of the edge
     double out_x,
         out_y;         // 1 if this coordinate counts for the distance from the axis or from the gap, else 0
@@ -69,7 +70,7 @@ struct WallPose {
     }
 
   private:
-    // Gives the same bits as the product with the identity, which has no negative zeros.
+    // Gives the same bits as a product with the identity matrix, which never gives a negative zero.
     static Vec3 unturned(const Vec3& v) { return v + Vec3(0, 0, 0); }
 };
 

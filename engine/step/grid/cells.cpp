@@ -10,7 +10,8 @@ namespace grainreel {
 namespace {
 
 constexpr double kMostBoxesPerGrain = 8;  // empty space must not cost memory or time
-constexpr std::size_t kFew = 4;  // a level has few grains if it has less than one in so many of all grains
+constexpr std::size_t kFew = 4;  // a level has few grains if it has less than one of so many grains of the
+                                 // bed
 
 }  // namespace
 

@@ -1,7 +1,7 @@
-// Space is divided into boxes (the zones of the original program), so that a search for neighbours looks only
-// at boxes close by. Each octave of radii (a factor of two) has a grid of its own, with boxes as wide as its
-// grains. So a large grain among small ones costs as much as the space that it covers, and the small ones
-// cost no more because of it.
+// Space is divided into boxes, so that a search for neighbours looks only at boxes close by. (They are the
+// zones of the original program; see docs/notes/step.md.) Each octave of radii (a factor of two) has a grid
+// of its own, with boxes as wide as its grains. So a large grain among small ones costs as much as the space
+// that it covers, and the small ones cost no more because of it.
 #pragma once
 
 #include <algorithm>
@@ -127,8 +127,9 @@ class Cells {
   public:
     // Finds a new order of the grains: in_order()[new] = old. It follows the boxes of the level that has most
     // grains, slowest along the bed's longest side. So grains that touch lie close in memory, and few
-    // contacts are between grains of two threads. `skin` is in m, and `period` is as in GridFrame. in_order()
-    // is valid until lay().
+    // contacts are between grains of two threads. The bits of a run depend on this order, because it is the
+    // order in which forces are summed. `skin` is in m, and `period` is as in GridFrame. in_order() is valid
+    // until lay().
     void order(const LargeArray<Place>& place, double skin, double period);
     const std::vector<std::int32_t>& in_order() const { return levels_[leading_].grid.in_order(); }
 

@@ -30,7 +30,7 @@ std::int32_t near_ones(const Grains& grains, std::int32_t i, double skin, double
         const Lanes limit = reach + Lanes(other.d);
         const auto partners = hn::LoadU(Indices(), candidates + c);
         const Lanes above(hn::PromoteTo(Doubles(), partners));
-        // Highway reads eight bytes.
+        // CompressBits() reads eight bytes.
         const std::uint8_t near[8] = {
             static_cast<std::uint8_t>(bits((apart.squared() < limit * limit) & (above > index)))};
         // A whole register is stored, over candidates that have been read already. On Zen 4, storing only

@@ -45,9 +45,9 @@ void in_order(std::vector<std::int32_t>& partner, std::size_t from, std::size_t 
     if (!std::is_sorted(begin, end)) std::sort(begin, end);
 }
 
-// Copies [first, last) of an array that ends at `end`. It begins with a block of constant length, which is
-// mostly enough, because the processor cannot predict how many grains a row of boxes holds. It may write up
-// to kNearSlack places after the copy.
+// Copies [first, last) of an array that ends at `end`. It first copies a block of constant length, which is
+// mostly enough. A mere loop would be slower, because the processor cannot predict how many grains a row of
+// boxes holds. It may write up to kNearSlack places after the copy.
 void copy_row(const std::int32_t* first, const std::int32_t* last, const std::int32_t* end,
               std::int32_t* to) {
     if (end - first < kNearSlack) {

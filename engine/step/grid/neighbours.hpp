@@ -25,8 +25,8 @@ struct NeighbourList {
         start.resize(grains + 1), partner.resize(partners);
         start[0] = 0;
     }
-    // Puts in the list of the grains from `grain` on; their partners begin at place `at`. Several threads may
-    // put in their parts at the same time.
+    // Puts in `part`, the list of the grains from `grain` on. Their partners begin at place `at`. Several
+    // threads may put in their parts at the same time.
     void put(const NeighbourList& part, std::size_t grain, std::size_t at);
 };
 
@@ -63,7 +63,7 @@ constexpr std::int32_t kNearSlack = 16;
 std::int32_t keep_near(const Grains& grains, std::int32_t i, double skin, double period,
                        std::int32_t* candidates, std::int32_t count);
 
-// Which glued grains are near a place. They are sorted into boxes once, at rest, and the boxes move with the
+// Finds the glued grains near a place. They are sorted into boxes once, at rest, and the boxes move with the
 // body that carries the grains.
 class GluedSearch {
   public:

@@ -1,4 +1,4 @@
-// Loads the places of grains into registers.
+// Helpers to load the places of grains into registers, and the nearest periodic image.
 #if defined(GRAINREEL_STEP_PLACES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_STEP_PLACES_INL
 #undef GRAINREEL_STEP_PLACES_INL

@@ -3,10 +3,10 @@
 //
 // The bits of a run do not depend on the number of threads, for three reasons. The grains have one spatial
 // order, whatever the team. Every thread computes all contacts of its own grains. Every grain sums its
-// contacts in one order: meshes before walls before pairs, law by law. Within a law, the contacts that began
-// since the last refresh come first, in the order in which they began. Then come the contacts in which the
-// grain is the second body, by rising first body, then those in which it is the first body, by rising second
-// body.
+// contacts in one order: meshes before glued grains before walls before pairs, law by law. Within a law, the
+// contacts that began since the last refresh come first, in the order in which they began. Then come the
+// contacts in which the grain is the second body, by rising first body, then those in which it is the first
+// body, by rising second body.
 #pragma once
 
 #include <cstdint>
@@ -67,7 +67,8 @@ class BedLists {
     void renew_shares();
     bool are_made() const { return !shares_.empty(); }
 
-    // To each contact that touches, gives the history that history_of fills in. Call it between two runs.
+    // Gives each touching contact the history that history_of() fills in. Where that returns false, the
+    // contact keeps its own. Call it between two runs.
     using HistoryOf =
         std::function<bool(std::size_t group, std::int32_t first, std::int32_t second, double* to)>;
     void take_histories(const HistoryOf& history_of);

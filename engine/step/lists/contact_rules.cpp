@@ -28,7 +28,8 @@ void merge_equal_kinds(ContactGroup& group) {
     std::fill(group.row.begin(), group.row.end(), 0);
 }
 
-// Adds the groups of all pairs or of all walls. Returns the group of each kind.
+// Adds the groups of these kinds, which are all kinds of contact between grains, with walls, with glued
+// grains or with meshes. Returns the group of each kind.
 std::vector<std::int32_t> add_groups(const std::vector<PairPlan>& kinds, bool of_pairs,
                                      std::vector<ContactGroup>& groups) {
     const std::size_t begin = groups.size();

@@ -20,7 +20,7 @@ inline std::int32_t mesh_of(std::int32_t patch) {
 }
 
 // Numbers that a contact with a mesh remembers after the numbers of its laws: the triangle that it touched,
-// the normal and the normal force (N), all in the last step.
+// the normal and the normal force (N), all in the last step. Checkpoints hold them in this order.
 enum PatchNumber { kTriangle, kNormalX, kNormalY, kNormalZ, kForce, kPatchNumbers };
 
 // A group of contacts that follow one law. It may hold several kinds of contact. A kind of contact between

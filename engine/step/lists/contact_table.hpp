@@ -146,8 +146,8 @@ class ContactTable {
         cursor_ += found;
         return found || holds_late(i, j);
     }
-    // There are late contacts only after a checkpoint is loaded. The empty places before them hold any
-    // bodies.
+    // sort() leaves no late contacts. So there are some here only when candidates are listed after a
+    // checkpoint was loaded. The empty places before them hold any bodies.
     bool holds_late(std::int32_t i, std::int32_t j) const {
         for (std::int32_t c = late(); c < size_; ++c) {
             if (first_[c] == i && second_[c] == j) return true;

@@ -40,7 +40,7 @@ class WallWays {
 };
 
 // How far the contact lists reach, and how much of that has been used up since their last refresh. Every
-// thread has its own copy, and all copies are equal.
+// thread has its own copy, and all copies are equal. Checkpoints hold it as it lies in memory.
 struct Reach {
     double skin = 0;          // m
     double moved = 0;         // m; no grain has moved farther relative to the bed's free flight

@@ -24,9 +24,9 @@
 
 namespace grainreel {
 
-// Lists the candidate pairs that may touch within a few steps. A step looks at these pairs only. Candidates
-// must serve for some fifty steps, so few of them are near at any time. A list is made anew once the grains
-// may have moved as far as its gap allows.
+// SoonList and Soon list the candidate pairs that may touch within a few steps. A step looks at these pairs
+// only. Candidates must serve for some fifty steps, so few of them are near at any time. A list is made anew
+// once the grains may have moved as far as its gap allows.
 //
 // The candidates are cut into several stretches, and each stretch has its own list. The lists are made in
 // different steps. If all were made in the same step, one thread would wait for the other in that step.

@@ -1,5 +1,5 @@
-// Kicks and drifts of the grains, and the prediction and correction of Gear's method. scheme.hpp says in
-// which order an integrator uses them.
+// Kicks (velocities by forces) and drifts (positions by velocities) of the grains, and the prediction and
+// correction of Gear's method. scheme.hpp says in which order an integrator uses them.
 #pragma once
 
 #include <cstdint>

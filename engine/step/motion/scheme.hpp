@@ -34,7 +34,7 @@ struct Scheme {
 };
 
 // velocity_verlet: Swope et al. 1982, J. Chem. Phys. 76, 637; everything at the same time after each step.
-// leapfrog: as the original program has it, velocities half a step behind the positions.
+// leapfrog: velocities half a step behind the positions, as in the original program (docs/notes/step.md).
 // position_verlet: Tuckerman et al. 1992, J. Chem. Phys. 97, 1990; forces at the middle of the step.
 // forest_ruth: of fourth order for smooth forces, the optimised form of Omelyan, Mryglod & Folk 2002, Comput.
 //   Phys. Commun. 146, 188 (PEFRL, position form); four force evaluations per step, some drifts backwards.

@@ -38,9 +38,9 @@ class WorkShares {
     void refreshed(int thread, double busy) { threads_[thread].busy_refreshing += busy; }
 
     // One thread calls the following functions for all threads. begin_search() comes before the search and
-    // makes equal parts if the number of grains has changed. renew() comes after the search. share_out() uses
-    // no knowledge of speeds. `contacts` holds the number of contacts of each grain as first body; it is not
-    // read if there is one thread.
+    // makes equal parts if the number of grains has changed. renew() comes after the search. share_out()
+    // alone uses the speeds as they were noted last. `contacts` holds the number of contacts of each grain as
+    // first body; it is not read if there is one thread.
     void begin_search(std::int32_t grains);
     void renew(const NeighbourList& pairs, const std::vector<std::int32_t>& contacts, std::int32_t grains);
     void share_out(const NeighbourList& pairs, const std::vector<std::int32_t>& contacts,
