@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "engine/files/damage.hpp"
@@ -181,6 +182,12 @@ grainreel::World inside(const World& from) {
 
 namespace {
 
+// Whether the text before the first ": " of a message is a file, and not what else a message begins with, as
+// in "threads: must be at least 0".
+bool looks_like_a_file(const std::string& text) {
+    return text.find('/') != std::string::npos || std::filesystem::path(text).has_extension();
+}
+
 // Takes a number such as ":12" off the end of `text`. Returns the number, or 0 where there is none.
 int number_cut_off(std::string& text) {
     const std::size_t colon = text.rfind(':');
@@ -202,7 +209,7 @@ Error::Error(const std::string& message, Kind kind) : std::runtime_error(message
     const int before = last > 0 ? number_cut_off(place) : 0;
     line_ = before > 0 ? before : last;
     column_ = before > 0 ? last : 0;
-    file_ = place;
+    if (last > 0 || looks_like_a_file(place)) file_ = place;
 }
 
 void Frame::add(const Vector& where, double r, std::int32_t kind) {

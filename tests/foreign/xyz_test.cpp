@@ -91,6 +91,7 @@ TEST(ExtendedXyz, BadPropertiesAreRefused) {
     EXPECT_THAT(said("species:S:1:pos:R:3:bad:R:0"), HasSubstr("\"0\" columns"));
     EXPECT_THAT(said("species:S:1:pos:R"), HasSubstr("name:type:columns"));
     EXPECT_THAT(said("species:S:1:place:R:3"), HasSubstr("no pos:R:3"));
+    EXPECT_THAT(said("pos:R:3:pos:R:9"), HasSubstr("pos 9 columns; a place has 3"));
     EXPECT_THAT(complaint_of(xyz_format(), "1\nLattice=\"1 0 0\n0 0\" Properties=pos:R:3\n1 2 3\n"),
                 StartsWith("grains:"));
     EXPECT_THAT(complaint_of(xyz_format(), "1\nLattice=\"1 0 0 0\" Properties=pos:R:3\n1 2 3\n"),

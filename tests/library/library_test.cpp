@@ -96,6 +96,8 @@ TEST(LibraryErrors, SayWhereTheMistakeIs) {
     EXPECT_EQ(own.line(), 7);
     EXPECT_EQ(own.column(), 0);
     EXPECT_EQ(gr::Error("nothing of the kind").line(), 0);
+    EXPECT_EQ(gr::Error("run/scene.toml: cannot be read").file(), "run/scene.toml");
+    EXPECT_EQ(gr::Error("threads: must be at least 0").file(), "");
     EXPECT_THROW(gr::Scene::from_file("/no/such/scene.toml"), gr::Error);
     EXPECT_THROW(scene().contact("huge"), gr::Error);
     EXPECT_THROW(gr::Simulation(scene(), {-1, {}}), gr::Error);

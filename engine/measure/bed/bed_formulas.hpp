@@ -3,6 +3,7 @@
 // drive it repeats itself (PeriodMultiple). None needs the step loop.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -85,11 +86,13 @@ class Flight {
 
     // Everything that a Flight knows. Checkpoints hold it as it lies in memory.
     struct State {
-        bool flying = false;
         std::int64_t since = 0;  // step at which the present flight began
         Times last;
-        bool any = false;  // whether a flight has ended
+        bool flying = false;
+        bool any = false;                  // whether a flight has ended
+        std::array<char, 6> nothing = {};  // no byte is left undefined, so equal states are equal in files
     };
+    static_assert(std::has_unique_object_representations_v<State>);
     const State& state() const { return state_; }
     void set(const State& state) { state_ = state; }
 

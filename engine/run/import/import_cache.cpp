@@ -158,10 +158,14 @@ ImportedRun cached_import(ImportRequest request) {
         if (std::string("*?[]").find(c) != std::string::npos) c = '_';
     const fs::path place = imports / key_of(request);
     std::error_code error;
-    if (fs::exists(place / name / "scene.toml", error) && fs::exists(place / name / kImportNews, error))
-        return found(place / name);
-    // Each process makes the import in a folder of its own. It then renames this folder to `place`, where it
-    // replaces what another process may have put there.
+    const auto is_there = [&] {
+        std::error_code ignored;
+        return fs::exists(place / name / "scene.toml", ignored) &&
+               fs::exists(place / name / kImportNews, ignored);
+    };
+    if (is_there()) return found(place / name);
+    // Each process makes the import in a folder of its own, which it then renames to `place`. The first one
+    // to finish keeps the name.
     const fs::path part = imports / fmt::format("{}.{}.part", place.filename().string(), ::getpid());
     fs::remove_all(part, error);
     request.folder = part / name;
@@ -173,8 +177,10 @@ ImportedRun cached_import(ImportRequest request) {
         if (!news)
             throw RunError(
                 fmt::format("{}: cannot be written; is the disk full?", (part / kImportNews).string()));
-        fs::remove_all(place, error);
-        fs::rename(part, place, error);
+        if (!is_there()) {  // else another process has finished it, and its reader may be at it
+            fs::remove_all(place, error);
+            fs::rename(part, place, error);
+        }
         if (error && !fs::exists(place / name / "scene.toml"))
             throw RunError(fmt::format("{}: cannot be made: {}", place.string(), error.message()));
         fs::remove_all(part, error);

@@ -204,7 +204,8 @@ std::vector<ContactForce> Simulation::contact_forces() const {
             pair ? m.plan.between(species(c.first), species(c.second))
             : mesh >= 0
                 ? m.plan.mesh[static_cast<std::size_t>(mesh) * m.scene.species.size() + species(c.first)]
-                : m.plan.wall[species(c.first)];
+            : c.glued >= 0 ? m.plan.glued[species(c.first)]
+                           : m.plan.wall[species(c.first)];
         forces.push_back({.first = m.grains.id[c.first],
                           .second = pair ? m.grains.id[c.second] : c.second,
                           .normal = c.normal,
@@ -219,9 +220,12 @@ std::vector<ContactForce> Simulation::contact_forces() const {
                           .stored_energy = c.stored_energy,
                           .triangle = c.triangle});
     });
-    std::sort(forces.begin(), forces.end(), [](const ContactForce& a, const ContactForce& b) {
-        return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);
-    });
+    // A grain may touch several grains glued to one face; then the place decides.
+    const auto order = [](const ContactForce& c) {
+        return std::tuple(c.first, c.second, c.triangle, c.point.x(), c.point.y(), c.point.z());
+    };
+    std::sort(forces.begin(), forces.end(),
+              [&](const ContactForce& a, const ContactForce& b) { return order(a) < order(b); });
     return forces;
 }
 

@@ -325,6 +325,22 @@ TEST(RoughWalls, TheirForcesAreThoseOfTheirFace) {
     EXPECT_GT(at_slants, 0);
 }
 
+// The friction that a contact's force is reported with is that of the two grains, and not that of the wall.
+TEST(RoughWalls, ContactsHaveTheFrictionOfTheGluedGrains) {
+    const Scene scene = scene_of({"contact.wall.friction=0.05", "drive.g_level=1.5"});
+    const Plan plan = make_plan(scene);
+    Simulation run(scene, plan, 1);
+    run.pack();
+    run.advance(plan.steps / 2);
+    int beyond_the_walls = 0;
+    for (const ContactForce& contact : run.contact_forces()) {
+        const double tangential = contact.tangential.norm();
+        EXPECT_LE(tangential, (1 + 1e-6) * contact.friction * contact.normal_force);
+        if (contact.second < 0 && tangential > 0.06 * contact.normal_force) ++beyond_the_walls;
+    }
+    EXPECT_GT(beyond_the_walls, 0);
+}
+
 // The energy balances term by term under the drive, in steps that are short against the integrator's own
 // error. A grain often touches several glued grains of one face, each of which has an account of its own.
 TEST(RoughWalls, EnergyBalances) {

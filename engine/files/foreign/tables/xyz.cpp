@@ -154,11 +154,14 @@ std::vector<XyzField> fields_of(std::string_view text) {
     std::size_t columns = 0;
     for (std::size_t i = 0; i < parts.size(); i += 3) {
         fields.push_back(field_of(parts[i], parts[i + 1], parts[i + 2]));
+        if (fields.back().name == "pos" && fields.back().count > 3)
+            throw UserError(
+                fmt::format("Properties gives pos {} columns; a place has 3", fields.back().count));
         columns += fields.back().count;
     }
     if (columns > most_columns) throw UserError(fmt::format("Properties names {} columns", columns));
     const bool placed = std::any_of(fields.begin(), fields.end(), [](const XyzField& field) {
-        return field.name == "pos" && (field.kind == 'R' || field.kind == 'I') && field.count <= 3;
+        return field.name == "pos" && (field.kind == 'R' || field.kind == 'I');
     });
     if (!placed) throw UserError("Properties has no pos:R:3, so that no grain has a place");
     return fields;
