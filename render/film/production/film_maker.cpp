@@ -46,8 +46,8 @@ std::size_t frames_that_wait(const FilmedScene& scene, const FilmOptions& option
         turn_bytes / (bytes_a_grain * moments * std::max<std::int64_t>(1, scene.grains()));
     return static_cast<std::size_t>(std::clamp<std::int64_t>(fit, waiting_frames, longest_turn));
 }
-// The pictures in the queue, the one being drawn, the one being encoded, and the last one, which is kept for
-// the poster.
+// Number of pictures that exist at once: those in the queue, the one being drawn, the one being encoded, and
+// the last one, which is kept for the poster.
 constexpr std::size_t pictures_in_all = waiting_pictures + 3;
 
 struct Order {

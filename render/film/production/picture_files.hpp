@@ -40,7 +40,7 @@ bool plays_in_browsers(FilmFormat format);
 // than a page takes.
 bool may_need_copy(const Film& film, std::int64_t pictures);
 
-// Settings for a copy of the film with that height.
+// Settings of the encoder for the copy of a film. width, height: pixels of the film.
 EncoderSettings settings_of_copy(const FilmedScene& scene, const std::filesystem::path& path, int width,
                                  int height, int threads);
 
@@ -54,7 +54,8 @@ class PageCopy {
     PageCopy& operator=(const PageCopy&) = delete;
 
     void add(const Picture& picture);
-    // Gives the copy its final name, or removes it where the film beside it will do. Throws RunError.
+    // Gives the copy its final name. If browsers play the film itself and it is small enough, the copy is not
+    // needed and the destructor removes it. Throws RunError.
     void finish(const std::filesystem::path& film);
 
   private:
