@@ -1,4 +1,4 @@
-// Moments that several scenes show in step, and the steps at which each of them does.
+// Moments that several scenes show in step, and the steps at which each scene shows them.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,8 @@ struct Instant {
 // that no other one has to show a moment twice; the first scene when none is driven.
 std::size_t reference_of(const std::vector<FilmedScene>& scenes);
 
-// The film's shots at the reference's steps. Only the film of the scene is used.
+// The moments at which the film takes its shots, at the steps of the clock `reference`. Of the scene only the
+// film is used.
 std::vector<Instant> instants_of(const FilmedScene& film, const Clock& reference, std::int64_t steps);
 
 // One shot for each instant, from step 0 to `steps`. It is the step nearest in time; in a locked segment it
