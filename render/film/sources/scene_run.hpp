@@ -22,7 +22,7 @@ class SceneRun final : public FrameSource {
     SceneRun(const FilmedScene& scene, RunDriver& driver) : scene_(scene), driver_(driver) {}
 
     // Has the run keep its key moments (engine/run/driver/agenda.hpp) with their contacts. To be called
-    // before start(). A resumed run does what it did before it was broken off.
+    // before start(). A resumed run keeps them if it did so before it was broken off, and not otherwise.
     void keep_key_moments() { keys_wanted_ = true; }
     // Closes the files of the run's folder that it reads. Nothing else may be called afterwards.
     void close() {
@@ -67,8 +67,9 @@ class SceneRun final : public FrameSource {
     std::int64_t count_ = 0;
     std::optional<BedPeriods> bed_periods_;
     std::optional<PictureParts> parts_;
-    std::shared_ptr<const WearReader> wear_before_;      // wear so far of a resumed run
-    std::shared_ptr<const std::vector<MeshWear>> worn_;  // wear since the last record of fields.nc ended
+    std::shared_ptr<const WearReader> wear_before_;  // reads the wear of a resumed run up to its break
+    // Pressure and wear of each mesh, as in the last record of fields.nc that has ended.
+    std::shared_ptr<const std::vector<MeshWear>> worn_;
     std::optional<EarlierPictures> earlier_;
     FramePtr frame_;                     // the frame that was taken last
     std::vector<int> segments_waiting_;  // segments of its pictures that are still to come
