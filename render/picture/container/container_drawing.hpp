@@ -40,8 +40,8 @@ struct ContainerShapes {
     Shapes over;              // painted over everything
 };
 
-// The camera's view before it follows anything (at_rest) and in the present frame (now). moves: whether the
-// camera moves in the course of the film.
+// The camera's view before it follows the container (at_rest) and in the present frame (now). moves: whether
+// the camera moves in the course of the film.
 struct Views {
     View at_rest, now;
     bool moves = false;
@@ -58,9 +58,9 @@ std::optional<double> exit_level(const FilmedScene& scene);
 
 // Grains that leave the run below an outlet are gone from one frame to the next. So that they do not vanish
 // in mid-air, they fade while they fall the last part of the way. This gives the strength of grains in each
-// row of a port of this height, counted from the top, 0 to 255. It is empty where nothing fades: with a tray,
-// without an outlet or a box that grains leave through below a vessel, and where the eye looks down so
-// steeply that rows with grains of the bed would fade too. meshes: m, their outermost points.
+// row of a port of this height, counted from the top, 0 to 255. It is empty if nothing fades: with a tray;
+// without an outlet and without a box below all meshes through which grains leave; and if the eye looks down
+// so steeply that rows with grains of the bed would fade too. meshes: m, their outermost points.
 std::vector<std::uint32_t> exit_fade(const FilmedScene& scene, const View& view, int height,
                                      const std::vector<Vec3>& meshes = {});
 
