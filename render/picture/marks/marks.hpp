@@ -61,7 +61,7 @@ class Marks {
   public:
     Marks(const FilmedScene& scene, const Palette& palette);
 
-    // See Renderer.
+    // See Renderer::start_from().
     void start_from(const Frame& frame);
     // Takes a frame that is not drawn but belongs to the trails.
     void remember(const Frame& frame);
