@@ -9,7 +9,7 @@
 namespace grainreel {
 
 // The places of a pixel's samples for solid triangles, from the middle of the pixel. They form a square
-// turned by 27 degrees, so that edges along rows and columns have five steps.
+// turned by 27 degrees, so that an edge along a row or a column covers 0, 1, 2, 3 or 4 samples of a pixel.
 constexpr int kMeshSamples = 4;
 constexpr float kSampleX[kMeshSamples] = {-0.125f, 0.375f, -0.375f, 0.125f};
 constexpr float kSampleY[kMeshSamples] = {-0.375f, -0.125f, 0.125f, 0.375f};
@@ -51,7 +51,7 @@ struct MeshRows {
 
 struct GlassRows {
     const float* away;  // m, z of what is seen behind the glass
-    float* thickness;   // panes of all glass before that
+    float* thickness;   // thickness of all glass in front of it, in panes
     std::size_t away_stride, stride;
     int first_row;
     bool orthographic;

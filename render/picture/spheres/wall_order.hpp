@@ -51,6 +51,8 @@ class WallOrder {
         double opacity;
         bool before;
 
+        // Whether a part of a grain may be on the wrong side: in front of a face that is painted before the
+        // grains, or behind a face that is painted behind them.
         bool disorders(const Vec3& centre, double radius) const;
         // A sphere around the part of a grain that is on the wrong side.
         ViewSphere wrong_part(const Vec3& centre, double radius) const;

@@ -59,7 +59,7 @@ HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours
         const F inverse = inverse_root(to.squared());
         // share: the square of the sine of the sphere's angular radius, seen from the point.
         const F share = smaller(F(n.square) * inverse * inverse, F(1));
-        const F sunk = rise * F(n.inverse_radius);  // -1 to 1: the sphere stands in the horizon
+        const F sunk = rise * F(n.inverse_radius);  // from -1 to 1 the horizon cuts the sphere
         const F whole = larger(rise, F(0)) * inverse * share;
         const F base = zero_to_one(F(0.5) * (sunk + F(1)) * share);
         const F part = base * base * inverse_root(larger(base, F(1e-12)));
