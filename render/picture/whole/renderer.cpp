@@ -175,7 +175,7 @@ void Renderer::Impl::start_from(const Frame& frame) {
     started = true;
 }
 
-// All grains but these become ghosts.
+// All grains but those of `what` become ghosts.
 void Renderer::Impl::point_out(PointedOut what) {
     point_forces = std::move(what.forces);
     if (what.grains.empty()) return;
