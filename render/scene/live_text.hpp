@@ -22,7 +22,7 @@ struct LiveWords {
 };
 
 // The column that a name means, with or without its unit ("kinetic_J", "kinetic"); null when there is none.
-// Columns that count steps and time are not among them.
+// The columns that count steps and time are not searched.
 const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, const std::string& name);
 // "lacey, kinetic_J, ...": the names of the columns that are always there.
 std::string column_names(const std::vector<MeasureColumn>& columns);
