@@ -70,8 +70,8 @@ class PixelPicker {
 
 // What the picture of an answer points out.
 struct AnswerMarks {
-    std::vector<std::int32_t>
-        grains;  // ids, rising; these grains get a ring, all others become pale and transparent
+    // Ids, rising. These grains get a ring; all others become pale and transparent.
+    std::vector<std::int32_t> grains;
     std::vector<PointForce> forces;  // drawn as arrows
     std::string words;               // words beside the grains; empty: the words of the film
     bool lines = true;  // lines from these grains to those that they touch, where contacts are known

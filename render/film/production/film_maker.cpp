@@ -30,9 +30,9 @@ double seconds_since(Watch::time_point start) {
 // has 8 MB at 1080p.
 constexpr std::size_t waiting_frames = 4, waiting_pictures = 2;
 
-// These apply when engine and film take turns. At the beginning and end of each turn some stage has nothing
-// to do, so turns are long: up to as many frames as 64 MB hold. An engine that needs longer than the patience
-// for one frame does not have to fill the queue: the film then starts with what is there.
+// These constants apply when engine and film take turns. At the beginning and end of each turn some stage has
+// nothing to do, so turns are long: up to as many frames as 64 MB hold. An engine that needs longer than the
+// patience for one frame does not have to fill the queue: the film then starts with what is there.
 constexpr std::int64_t turn_bytes = 64 << 20, bytes_a_grain = 250, longest_turn = 32;
 constexpr std::chrono::milliseconds turn_patience(250);
 constexpr std::chrono::milliseconds glance(50);  // how often the caller is asked whether it is in a hurry

@@ -123,8 +123,8 @@ class PictureFiles {
     bool poster_done_, poster_written_ = false, complete_ = false;
     FlashWatch flashes_;
     std::string flash_remedy_;
-    DrawnFrame
-        last_;  // kept because it becomes the poster when the next picture comes after the poster's time
+    // The last picture. It becomes the poster when the next picture comes after the poster's time.
+    DrawnFrame last_;
     std::unique_ptr<FilmWriter> film_;
     std::unique_ptr<PageCopy> copy_;
     std::string film_file_, left_file_, left_encoder_;

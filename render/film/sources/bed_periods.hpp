@@ -17,9 +17,9 @@ namespace grainreel {
 
 class BedPeriods {
   public:
-    // shots: all shots of the film. Which of them are shown is counted from the first shot of each segment,
-    // so that a resumed run shows the same ones. may_leave_out: false if all shots must be shown. segments:
-    // those of the film, which may differ from the scene's own.
+    // shots: all shots of the film. The shown ones are counted from the first shot of each segment, so that a
+    // resumed run shows the same ones. may_leave_out: false if all shots must be shown. segments: those of
+    // the film, which may differ from the scene's own.
     BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Shot>& shots,
                const std::vector<FilmSegment>& segments, bool may_leave_out);
     BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Shot>& shots,

@@ -52,8 +52,8 @@ struct RenderRequest {
     std::optional<std::int64_t> frame;  // in place of `at`: number of the film's frame, from 0
     bool frame_of_file = false;         // `frame` counts the frames of another program's files
     PrintSize print;                    // size of one picture
-    std::optional<int>
-        every;           // draws one of so many kept frames of the trajectory; none: the film's pictures
+    // Draws one in `every` kept frames of the trajectory. None: draws the pictures of the film.
+    std::optional<int> every;
     bool replay = true;  // moments that were not kept are brought back
     std::optional<PartsWanted> parts;
 };

@@ -51,8 +51,8 @@ class SceneRun final : public FrameSource {
     FrameWishes wishes();
     KeptMoments wanted_moments() const;
     std::optional<Taken> waiting();  // the next picture of the frame that was taken last
-    // Whether the film shows no picture of that step, by what is known so far of the bed's periods. Notes the
-    // pictures that it does show.
+    // Whether the film leaves that step out, by what is known so far of the bed's periods. Also notes the
+    // pictures of the step that the film shows (segments_waiting_).
     bool leaves_out(std::int64_t step);
     void look_at_bed_periods(const Simulation& simulation);
     void look_at_wear(const Simulation& simulation);
