@@ -1,8 +1,8 @@
 // The container as a cut-away. Walls have a visible thickness. Walls that the eye sees from inside are solid
 // and lie behind the grains; walls that it sees from outside are bare glass edges over the grains.
 //
-// The container is convex and the grains are inside. So what lies behind the grains is painted before them,
-// what lies in front of them is painted after them, and every edge stays smooth. WallOrder takes the painted
+// The container is convex and the grains are inside. So what lies behind the grains is painted first, and
+// what lies in front of them is painted after them. This keeps every edge smooth. WallOrder takes the painted
 // faces and corrects the picture where grains reach through a wall or are outside.
 #pragma once
 
@@ -36,8 +36,9 @@ struct WallSide {
 };
 
 struct ContainerShapes {
-    WallSide behind, before;  // painted before and after the grains
-    Shapes over;              // painted over everything
+    // The walls behind the grains, which are painted first, and those in front of them, painted after.
+    WallSide behind, before;
+    Shapes over;  // painted over everything
 };
 
 // The camera's view before it follows the container (at_rest) and in the present frame (now). moves: whether

@@ -317,8 +317,8 @@ void MeshPainter::draw_rest_band(int band, const Job& job, Worker& worker) {
     }
 }
 
-// Splits a mixed pixel: the part that is nearer than the grain goes into the layer before the grains, and the
-// rest goes behind them.
+// Splits a mixed pixel: the part that is nearer than the grain goes into the layer in front of the grains,
+// and the rest goes behind them.
 void MeshPainter::split_mixed(const Mixed& pixel, const Visibility& seen, Worker& worker) {
     const float grain = grain_depth(seen, pixel.x, pixel.y);
     if (grain == kNothing || pixel.near_away >= grain) return;

@@ -18,7 +18,7 @@ struct LitCorner {
 };
 
 // The part of space that is drawn: what lies in all these half-spaces normal . p >= distance. In perspective
-// the first half-space keeps what is before the eye; the others belong to a cut.
+// the first half-space keeps what is in front of the eye; the others belong to a cut.
 struct DrawnSpace {
     struct Half {
         Eigen::Vector3f normal;
