@@ -1,7 +1,8 @@
 // Words of the user's own with values that change from frame to frame:
 //   "mixing {lacey}\nkinetic energy {kinetic:mJ}"
 // A value is a column of measures.csv, named with or without its unit, and has three significant digits.
-// After a colon stands the unit in which it is shown; without one that is SI. "{{" stands for a brace.
+// After a colon stands the unit in which it is shown; without a colon, that is the unit in the column's name.
+// "{{" stands for a brace.
 #pragma once
 
 #include <optional>

@@ -74,9 +74,9 @@ inline bool is_signed(GrainValue value) {
 std::array<double, 2> usual_range(GrainValue value, const Scene& scene);
 // N: from this force on, the line of a contact has its full width.
 double widest_chain_force(const Scene& scene);
-// m/s. period: the speed of a fast circulation, a grain's diameter in five periods. Otherwise, for velocities
-// of a moment, the speed of the drive, or the speed of a fall from the outlet's half-width if that is larger.
-// 0 when the scene gives no scale.
+// m/s: the usual speed of the mean flow. Over a period, it is the speed of a fast circulation: a grain's
+// diameter in five periods. At a moment, it is the speed of the drive, or the speed of a fall from the
+// outlet's half-width if that is larger. 0 when the scene gives no scale.
 double usual_flow_speed(const Scene& scene, bool period);
 // The range of the values' axis of a profile that has no range of its own.
 std::array<double, 2> usual_profile_range(const Scene& scene, const FilmPlot& plot);
