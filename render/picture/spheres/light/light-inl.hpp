@@ -89,6 +89,8 @@ HWY_INLINE F unshadowed(const SurfacePoint& point, const Lamp& lamp, const Neigh
     return lit;
 }
 
+// The balls of the legend have the same formula (lit() in render/picture/words/legend_block.cpp): change
+// both.
 template <bool orthographic>
 void light_as(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGrain& grain,
               const LitPoints& points) {
