@@ -130,7 +130,7 @@ struct FilmArrows {
     bool operator==(const FilmArrows&) const = default;
 };
 
-// The same velocity as pieces of streamlines.
+// The grains' mean velocity in the y-z plane: pieces of streamlines.
 struct FilmStreamlines {
     int across = 0;      // lines across the container's width; 0: none
     double speed = 0;    // m/s: lines have their full width from this speed on
@@ -149,7 +149,7 @@ struct FilmWallForces {
 struct FilmTrails {
     std::vector<std::size_t> species;
     std::vector<std::int32_t> grains;  // ids of more grains
-    double duration = 0;               // s
+    double duration = 0;               // s, the time that they show
     bool wanted() const { return !species.empty() || !grains.empty(); }
     bool operator==(const FilmTrails&) const = default;
 };
@@ -232,7 +232,7 @@ struct Colour {
 struct FilmSegment {
     enum class Kind { motion, locked };
     Kind kind = Kind::motion;
-    // Simulated s. At most one segment has none; it takes what the others leave.
+    // s of simulated time. At most one segment has no duration; it takes what the others leave.
     std::optional<double> duration;
     double playback = 1;  // motion: simulated seconds for each second of film (0.1 = ten times slower)
     int every = 1;        // locked: one frame every 1, 2 or 4 periods
@@ -288,7 +288,7 @@ struct Camera {
     bool follow = false;               // stands in the container's own frame, else in the lab
     std::optional<Vec3> position;      // m, in place of azimuth, elevation and automatic framing
     std::optional<Vec3> target;        // m, the middle of the picture; when empty the middle of the container
-    double orbit = 0;                  // degrees that it turns about the vertical through the target
+    double orbit = 0;                  // degrees that the camera turns about the vertical through the target
     std::optional<double> orbit_time;  // s of film that the orbit takes; the whole film when empty
     std::vector<CameraKey> keys;       // by rising time
     bool moves() const { return orbit != 0 || !keys.empty(); }
@@ -300,7 +300,7 @@ struct Camera {
 enum class FilmFormat { mp4, webm, av1, gif, ffv1, png, y4m };  // docs/guide/films.md says what each is
 
 // Where words stand: in gutters beside the picture, or on plates over it. automatic: on plates where the user
-// frames the picture.
+// frames the picture, else in gutters.
 enum class WordPlace { automatic, gutters, plates, none };
 
 struct Film {
@@ -320,7 +320,7 @@ struct Film {
     std::string preset = "veryfast";
     WordPlace words = WordPlace::automatic;
     WordKinds word_kinds;
-    bool axes = false;        // x, y and z beside the picture
+    bool axes = false;        // arrows along x, y and z beside the picture
     bool wall_ghost = false;  // the outline of the container at rest
     double exaggerate = 1;    // the motion of the container and its grains is drawn so many times as large
     FilmShows shows;

@@ -13,7 +13,7 @@
 
 namespace grainreel {
 
-// Words and the value that follows them. The last words have no value.
+// Words and the value that follows them. Words after the last value have an empty `column`.
 struct LiveWords {
     std::string words;
     std::string column;    // column of measures.csv; empty: no value
@@ -35,6 +35,7 @@ std::vector<LiveWords> parse_live_text(const std::string& text, const std::vecto
 // is no row yet.
 template <class ValueOf>
 std::string live_text(const std::vector<LiveWords>& all, const ValueOf& value);
+// A value with its unit; a dash in its place if there is none.
 std::string live_value(const std::optional<double>& value, const LiveWords& as);
 
 template <class ValueOf>
