@@ -21,6 +21,7 @@ struct Named {
     unsigned rgb;
 };
 
+// The first names are Okabe and Ito's palette. Species without a colour of their own take them in this order.
 constexpr std::size_t palette_size = 8;
 constexpr std::array<Named, 10> named_colours{{
     {"orange", 0xe69f00},

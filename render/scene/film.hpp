@@ -18,7 +18,7 @@
 namespace grainreel {
 
 // A plane that opens the bed. Grains on the side that its normal points to are taken away, and grains that it
-// crosses show a flat face. It goes with the container.
+// crosses show a flat face. It moves with a floor that shakes, but not with one that turns.
 struct FilmCut {
     bool present = false;
     Vec3 normal{1, 0, 0};  // unit, towards the part that is taken away
@@ -70,7 +70,7 @@ enum class GrainValue {
     species,
     speed,              // m/s
     vertical_velocity,  // m/s, upwards
-    start_height,       // m above the floor's rest position, in the film's first frame; in bands
+    start_height,       // m above the floor, in the film's first frame; in bands
     displacement,       // m, how far the grain has come in one period of the drive
     rise,               // m, how much higher it is than one period ago
     spin,               // rad/s
@@ -89,8 +89,8 @@ struct GrainColouring {
     bool fixed = false;                 // the range is the user's
     std::string unit;                   // unit on the colour bar; empty for pure numbers
     int layers = 5;                     // bands of start_height
-    bool as_field = false;     // shows means as a layer before pale grains, in place of coloured grains
-    bool logarithmic = false;  // equal ratios have equal distances on the bar; the range is positive
+    bool as_field = false;              // shows means as a layer in front of pale grains
+    bool logarithmic = false;           // equal ratios have equal distances on the bar; the range is positive
     bool of_grains() const { return by != GrainValue::species && !as_field; }
     bool of_field() const { return by != GrainValue::species && as_field; }
     bool operator==(const GrainColouring&) const = default;
@@ -109,8 +109,8 @@ enum class ProfileOf {
 struct FilmPlot {
     std::string column;  // its name in the file: "height_difference", "centre_z_m"
     std::string label;   // the quantity in words, without the unit
-    std::optional<std::array<double, 2>>
-        range;  // SI; when it is empty, the range of a column grows with the data
+    // SI. If it is empty, the range of a column grows with the data.
+    std::optional<std::array<double, 2>> range;
     Dimension dimension = Dimension::number;
     ProfileOf profile = ProfileOf::nothing;  // the profile shown in place of a column
     bool across = false;                     // a profile runs over the width, else over the height
@@ -130,7 +130,7 @@ struct FilmArrows {
     bool operator==(const FilmArrows&) const = default;
 };
 
-// The same velocity as pieces of streamlines.
+// The grains' mean velocity in the y-z plane: pieces of streamlines.
 struct FilmStreamlines {
     int across = 0;      // lines across the container's width; 0: none
     double speed = 0;    // m/s: lines have their full width from this speed on
@@ -138,7 +138,7 @@ struct FilmStreamlines {
     bool operator==(const FilmStreamlines&) const = default;
 };
 
-// Arrows of the mean force on each wall since the row of measures before.
+// Arrows of the mean force on each wall, over the time since the row of measures before.
 struct FilmWallForces {
     bool wanted = false;
     double scale = 0;  // N: an arrow of this force is a quarter as long as the container is wide
@@ -149,7 +149,7 @@ struct FilmWallForces {
 struct FilmTrails {
     std::vector<std::size_t> species;
     std::vector<std::int32_t> grains;  // ids of more grains
-    double duration = 0;               // s
+    double duration = 0;               // s, the time that they show
     bool wanted() const { return !species.empty() || !grains.empty(); }
     bool operator==(const FilmTrails&) const = default;
 };
@@ -232,13 +232,12 @@ struct Colour {
 struct FilmSegment {
     enum class Kind { motion, locked };
     Kind kind = Kind::motion;
-    // Simulated s. At most one segment has none; it takes what the others leave.
+    // s of simulated time. At most one segment has no duration; it takes what the others leave.
     std::optional<double> duration;
     double playback = 1;  // motion: simulated seconds for each second of film (0.1 = ten times slower)
     int every = 1;        // locked: one frame every 1, 2 or 4 periods
     double phase = 0;     // locked: turns, the phase of these frames
-    // Each picture may show what happened up to its moment, by either of the next two members but not by
-    // both.
+    // A picture may show what happened up to its moment: by `average` or by `exposure`, but not by both.
     int average = 0;      // number of periods over which mean places of grains are drawn; 0: none
     double exposure = 0;  // s for which the shutter is open; 0: one moment
     int exposures = 16;   // moments in that time; locked: at most one a period
@@ -265,7 +264,8 @@ struct FilmLabel {
     bool operator==(const FilmLabel&) const = default;
 };
 
-// Where the camera is at one moment of the film. Members that are empty follow from the other keys.
+// Where the camera is at one moment of the film. A member that is empty follows from the keys before and
+// after that have it.
 struct CameraKey {
     double time = 0;  // s of film
     std::optional<double> azimuth, elevation, zoom;
@@ -274,7 +274,7 @@ struct CameraKey {
 };
 
 // How much the automatic framing shows: all of the container, the bed at rest, or as high as the grains get
-// in the course of the film. What the container has above that is cut off.
+// in the course of the film. The part of the container above that is cut off.
 enum class CameraFrame { container, bed, reach };
 
 struct Camera {
@@ -284,11 +284,11 @@ struct Camera {
     double elevation = 10;  // degrees above the horizon
     double field_of_view = 25;         // degrees, vertical; 0 for orthographic
     double zoom = 1;                   // magnifies the automatic framing
-    Vec3 up{0, 0, 1};                  // unit; against gravity where that is level
-    bool follow = false;               // true: the container's own frame, false: the lab's
+    Vec3 up{0, 0, 1};                  // unit; z, or against gravity if gravity is horizontal
+    bool follow = false;               // stands in the container's own frame, else in the lab
     std::optional<Vec3> position;      // m, in place of azimuth, elevation and automatic framing
     std::optional<Vec3> target;        // m, the middle of the picture; when empty the middle of the container
-    double orbit = 0;                  // degrees that it turns about the vertical through the target
+    double orbit = 0;                  // degrees that the camera turns about the vertical through the target
     std::optional<double> orbit_time;  // s of film that the orbit takes; the whole film when empty
     std::vector<CameraKey> keys;       // by rising time
     bool moves() const { return orbit != 0 || !keys.empty(); }
@@ -300,7 +300,7 @@ struct Camera {
 enum class FilmFormat { mp4, webm, av1, gif, ffv1, png, y4m };  // docs/guide/films.md says what each is
 
 // Where words stand: in gutters beside the picture, or on plates over it. automatic: on plates where the user
-// frames the picture.
+// frames the picture, else in gutters.
 enum class WordPlace { automatic, gutters, plates, none };
 
 struct Film {
@@ -310,8 +310,9 @@ struct Film {
     std::vector<FilmSegment> segments;
     std::vector<FilmCaption> captions;  // by rising time; they do not overlap
     std::vector<FilmLabel> labels;
-    int periods =
-        0;  // periods of the drive that locked frames, displacements and means count by; 0: those of the bed
+    // Periods of the drive by which locked frames, displacements and means count; 0: as many as the bed takes
+    // to repeat itself.
+    int periods = 0;
     Camera camera;
     Colour background{1, 1, 1};
     FilmLook look;
@@ -319,7 +320,7 @@ struct Film {
     std::string preset = "veryfast";
     WordPlace words = WordPlace::automatic;
     WordKinds word_kinds;
-    bool axes = false;        // x, y and z beside the picture
+    bool axes = false;        // arrows along x, y and z beside the picture
     bool wall_ghost = false;  // the outline of the container at rest
     double exaggerate = 1;    // the motion of the container and its grains is drawn so many times as large
     FilmShows shows;

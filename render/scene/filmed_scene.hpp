@@ -24,7 +24,7 @@ inline bool shows_wear(const FilmedScene& scene) {
     return scene.film.look.walls.coloured() && !scene.meshes.empty();
 }
 
-// Sets what the engine keeps of the film (Scene::film_text, the species' colours as text, Scene::wishes) by
+// Sets what the engine keeps of the film (Scene::film_text, the species' colours as text, Scene::wishes) from
 // the film as it is now. The reader does this; code that changes the film of a scene before it is run must do
 // it again.
 void tell_engine(FilmedScene& scene);

@@ -13,7 +13,9 @@
 namespace grainreel {
 namespace {
 
-constexpr std::size_t kCounters = 4;  // columns that count steps and time
+// The first columns of measures.csv count steps and time: those of the observer Times
+// (engine/measure/observer_list.hpp).
+constexpr std::size_t kCounters = 4;
 
 LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& columns) {
     const std::size_t colon = inside.find(':');

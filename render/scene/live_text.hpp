@@ -1,7 +1,8 @@
 // Words of the user's own with values that change from frame to frame:
 //   "mixing {lacey}\nkinetic energy {kinetic:mJ}"
 // A value is a column of measures.csv, named with or without its unit, and has three significant digits.
-// After a colon stands the unit in which it is shown; without one that is SI. "{{" stands for a brace.
+// After a colon stands the unit in which it is shown; without a colon, that is the unit in the column's name.
+// "{{" stands for a brace.
 #pragma once
 
 #include <optional>
@@ -12,7 +13,7 @@
 
 namespace grainreel {
 
-// Words and the value that follows them. The last words have no value.
+// Words and the value that follows them. Words after the last value have an empty `column`.
 struct LiveWords {
     std::string words;
     std::string column;    // column of measures.csv; empty: no value
@@ -22,7 +23,7 @@ struct LiveWords {
 };
 
 // The column that a name means, with or without its unit ("kinetic_J", "kinetic"); null when there is none.
-// Columns that count steps and time are not among them.
+// The columns that count steps and time are not searched.
 const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, const std::string& name);
 // "lacey, kinetic_J, ...": the names of the columns that are always there.
 std::string column_names(const std::vector<MeasureColumn>& columns);
@@ -34,6 +35,7 @@ std::vector<LiveWords> parse_live_text(const std::string& text, const std::vecto
 // is no row yet.
 template <class ValueOf>
 std::string live_text(const std::vector<LiveWords>& all, const ValueOf& value);
+// A value with its unit; a dash in its place if there is none.
 std::string live_value(const std::optional<double>& value, const LiveWords& as);
 
 template <class ValueOf>

@@ -1,5 +1,5 @@
-// What films are made for, and the defaults that suit it. docs/guide/films.md has the same table with its
-// reasons.
+// The purposes that films are made for, and the defaults that suit each of them. docs/guide/films.md has the
+// same table with its reasons.
 #pragma once
 
 #include <array>

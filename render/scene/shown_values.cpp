@@ -37,7 +37,7 @@ double drop_below(const Scene& scene) {
 // layers of grains that lose little energy gain speed from blow to blow, until <v²> = (1 + e) / (1 - e) (a
 // ω)² / 2 for a single ball; for n layers e^(2 n - 1) stands in place of e (as in the plan). In such cases
 // the measured values are 2.0 for 1.8 layers with e = 0.8, 2.4 for a ball with e = 0.7, and 2.4 for a gas
-// with e = 0.85. The straight line below is above all of these.
+// with e = 0.85. The straight line in the code lies above all these values.
 double thrown_faster(const Scene& scene) {
     constexpr double deep = 1.8, slope = 0.75, liveliest = 0.98;
     double restitution = 0;
@@ -102,7 +102,7 @@ double top_of_bed(const Scene& scene) {
     }
     if (scene.gravity.norm() == 0) return scene.container.height;
     const double half = scene.grains() > 0 ? 0.5 * mean_diameter(scene) : 0;
-    return fill_height(scene, packing) + half;  // walls and slopes leave it uneven
+    return fill_height(scene, packing) + half;  // plus half a grain, since the surface is uneven
 }
 
 double smallest_diameter(const Scene& scene) {

@@ -26,6 +26,7 @@ inline const ChoiceWords<FilmFormat> film_format_words{{"mp4", FilmFormat::mp4},
                                                        {"ffv1", FilmFormat::ffv1}, {"png", FilmFormat::png},
                                                        {"y4m", FilmFormat::y4m}};
 
+// "species" must stay first: the reader of film.highlight_if skips it.
 inline const ChoiceWords<GrainValue> grain_value_words{{"species", GrainValue::species},
                                                        {"speed", GrainValue::speed},
                                                        {"vertical-velocity", GrainValue::vertical_velocity},
@@ -68,14 +69,14 @@ inline bool is_signed(GrainValue value) {
 
 // The range of colours where the scene gives none. It is the same for the whole film and follows from the
 // scene alone, so that a colour means the same in every frame, both during the run and when it is drawn
-// again. It is estimated such that 99 of 100 grains lie in it in the course of the film. {0, 0} if nothing in
-// the scene sets a scale.
+// again. 99 of 100 grains are estimated to lie in it in the course of the film. {0, 0} if nothing in the
+// scene sets a scale.
 std::array<double, 2> usual_range(GrainValue value, const Scene& scene);
 // N: from this force on, the line of a contact has its full width.
 double widest_chain_force(const Scene& scene);
-// m/s. period: the speed of a fast circulation, a grain's diameter in five periods. Otherwise, for velocities
-// of a moment, the speed of the drive, or the speed of a fall from the outlet's half-width if that is larger.
-// 0 when the scene gives no scale.
+// m/s: the usual speed of the mean flow. Over a period, it is the speed of a fast circulation: a grain's
+// diameter in five periods. At a moment, it is the speed of the drive, or the speed of a fall from the
+// outlet's half-width if that is larger. 0 when the scene gives no scale.
 double usual_flow_speed(const Scene& scene, bool period);
 // The range of the values' axis of a profile that has no range of its own.
 std::array<double, 2> usual_profile_range(const Scene& scene, const FilmPlot& plot);
@@ -88,9 +89,9 @@ inline Dimension dimension_of(FilmWalls::Colour colour) {
     return colour == FilmWalls::Colour::wear ? Dimension::stiffness : Dimension::pressure;  // J/m2 is N/m
 }
 
-// Pa or J/m2: the range of the walls' colours where the scene gives none, from the scene alone as above. It
-// spans three powers of ten: around the pressure under the bed's weight, or below the work of rubbing under
-// that pressure at the speed of the fastest mesh. {0, 0} if nothing in the scene sets a scale.
+// Pa or J/m2: the range of the walls' colours where the scene gives none, from the scene alone. It spans
+// three powers of ten: around the pressure under the bed's weight, or below the work of rubbing under that
+// pressure at the speed of the fastest mesh. {0, 0} if nothing in the scene sets a scale.
 std::array<double, 2> usual_range(FilmWalls::Colour colour, const Scene& scene);
 
 // The unit of the walls' colour bar.

@@ -116,7 +116,7 @@ bool is_among(const std::vector<std::int32_t>& ids, std::int32_t id) {
     return std::binary_search(ids.begin(), ids.end(), id);
 }
 
-// Says whether the film's cut takes one of these grains away.
+// Says whether the film's cut takes away one of the grains with these ids.
 bool cut_hides(const Snapshot& snapshot, const FilmCut& cut, const std::vector<std::int32_t>& ids) {
     const std::vector<HalfSpace> halves = kept_by_cut(cut, snapshot.frame);
     return std::any_of(ids.begin(), ids.end(), [&](std::int32_t id) {

@@ -26,7 +26,7 @@ namespace grainreel {
 // A run, or a single state of one, that is asked questions, with the film by which pictures of the answers
 // are drawn.
 struct AskedRunWithFilm {
-    const AskedRun* asked = nullptr;
+    const AskedRun* asked = nullptr;  // `state`, or the record of `run`
     const FilmedScene& scene() const { return run ? run->scene() : *film; }  // the scene with its film
 
     std::unique_ptr<const RecordedRun> run;  // the run, when a run's folder was opened
@@ -47,7 +47,7 @@ std::unique_ptr<const AskedRunWithFilm> open_filmed_state(const std::filesystem:
                                                           const ReadingOptions& reading = {});
 
 // Finds what is at a pixel of a moment's picture. The picture has the film's size, camera, cut and hidden
-// species; ghosts do not count.
+// species; ghosts, which are seen through, do not count.
 class PixelPicker {
   public:
     // film_time: s since the film's first frame; it decides where a moving camera stands. Snapshot and scene
@@ -70,8 +70,8 @@ class PixelPicker {
 
 // What the picture of an answer points out.
 struct AnswerMarks {
-    std::vector<std::int32_t>
-        grains;  // ids, rising; these grains get a ring, all others become pale and transparent
+    // Ids, rising. These grains get a ring; all others become pale and transparent.
+    std::vector<std::int32_t> grains;
     std::vector<PointForce> forces;  // drawn as arrows
     std::string words;               // words beside the grains; empty: the words of the film
     bool lines = true;  // lines from these grains to those that they touch, where contacts are known
@@ -79,11 +79,12 @@ struct AnswerMarks {
 
 // Draws the moment as the scene's film would show it, with the answer's marks. What the film takes from
 // earlier moments and from measures is left out. A cut or a hidden species is not applied where it would
-// remove a grain of the answer. Throws UserError when the file exists already.
+// remove a grain of the answer. Throws RunError when the file cannot be written.
 void draw_answer(const Snapshot& snapshot, const FilmedScene& scene, const AnswerMarks& marks,
                  double film_time, const std::filesystem::path& file, gl::Provider provider);
 
-// Throws the UserErrors of draw_answer() about the file, before the question is answered.
+// To be called before the question is answered. Throws UserError unless the file's name ends in .png, its
+// folder exists and the file does not exist yet.
 void check_picture_file(const std::filesystem::path& file);
 
 }  // namespace grainreel

@@ -1,4 +1,5 @@
-// One run of the verb `compare`, from the accepted scenes to the closed files.
+// The verb `compare`: runs or reads all its members at the same time, and draws their panels side by side, as
+// a film or as one picture.
 #pragma once
 
 #include <chrono>
@@ -32,7 +33,8 @@ class CompareRun final : public FilmRun {
     bool finish(Frames& frames);
     bool draw_film(Frames& frames);
     bool draw_still(Frames& frames);
-    // Does `work` for every panel at once and shows the progress; false when asked to stop.
+    // Does `work` for every panel at once, each on a thread of its own, and shows the progress. Returns false
+    // if one of them did.
     enum class Stage { packing, pictures };
     using Work = std::function<bool(ComparedMember&, FramePtr&)>;
     bool for_all(Stage stage, Frames& frames, const Work& work);

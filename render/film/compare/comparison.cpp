@@ -38,8 +38,8 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-// If a key of a scene is varied, drops the scene's captions: they were written for its own value of the key.
-// Captions of the command line hold for all panels and stay.
+// If a key of a scene is varied, drops the scene's captions: they were written for the value in the scene
+// file. Captions of the command line hold for all panels and stay.
 void leave_out_captions(const CompareRequest& what, Comparison& all) {
     if (!what.vary) return;
     const std::vector<Assignment> values = read_vary(*what.vary);
@@ -81,7 +81,7 @@ void make_panels(const CompareRequest& what, Comparison& all) {
     leave_out_captions(what, all);
     share_colours(all.panels);
     share_reach(all.panels);
-    if (!common_of(all.panels).exaggerated)  // then each panel has to say so itself
+    if (!common_of(all.panels).exaggerated)  // if the factors differ, each panel has its own words
         for (Panel& panel : all.panels)
             if (panel.scene.film.exaggerate != 1)
                 panel.caption += fmt::format(", wall motion drawn {:.3g}×", panel.scene.film.exaggerate);
@@ -144,8 +144,8 @@ double mean_interval(const std::vector<Frame>& moments) {
                : (moments.back().time - moments.front().time) / static_cast<double>(moments.size() - 1);
 }
 
-// Index of the finished run with the fewest frames a second; the others can show its moments. None when there
-// is no finished run.
+// Index of the finished run with the fewest frames a second; the other runs have frames at least as often.
+// None when there is no finished run.
 std::optional<std::size_t> coarsest(const Comparison& all) {
     std::optional<std::size_t> found;
     double longest = 0;
@@ -181,7 +181,8 @@ bool has_all(const ComparedMember& member, const Pictures& pictures) {
     return member.record() == nullptr || member.record()->has_all(pictures);
 }
 
-// Takes the moments of the film's schedule. Returns false when a finished run lacks one of them.
+// Takes the moments of the film's schedule. Returns false if there are none, or if a finished run lacks one
+// of them.
 bool take_moments_of_schedule(Comparison& all) {
     all.reference = reference_of(scenes_of(all));
     const Clock& clock = all.members[all.reference]->clock();
@@ -251,7 +252,8 @@ void take_moments_of_record(Comparison& all) {
     }
 }
 
-// Takes the one moment of a still. If the segment there is locked to a phase, the lock does not count.
+// Takes the one moment of a still. It is shown even if the segment there is locked to a phase and the moment
+// has another phase.
 void take_one(double at, Comparison& all) {
     const Span common = common_time(all);
     if (at < common.from - hair || at > common.to + hair)

@@ -22,17 +22,17 @@ struct Comparison {
     Pictures pictures;          // the moments that every member shows
     std::size_t reference = 0;  // the panel whose drive the film's segments follow
     bool by_schedule = true;    // the film's segments chose the moments; else a finished run did
-    std::vector<std::string>
-        labels;  // one for each panel, with the value that is varied; empty where nothing is varied
+    // One for each panel, with the value that is varied; empty where nothing is varied.
+    std::vector<std::string> labels;
     // If one picture is drawn instead of a film: its time in s of film.
     std::optional<double> still;
     double dots_an_inch = 0;         // resolution of that picture for print; 0: it has no size on paper
-    std::int64_t film_pictures = 0;  // number of pictures that the film has, or would have
+    std::int64_t film_pictures = 0;  // number of pictures of the film, also if only one is drawn
     ThreadPlan threads;
     std::vector<std::string> warnings;
 
     bool all_recorded() const;  // whether nothing has to be run
-    double film_end = 0;        // s, time of the last moment that the film has, or would have
+    double film_end = 0;        // s, time of the last moment of the film, also if one picture is drawn
 };
 
 // Reads members, threads, labels and warnings of a comparison. Throws UserError for any scene, run or option
@@ -43,7 +43,8 @@ void read_members(const CompareRequest& what, Comparison& all);
 // members share no moment.
 void choose_moments(const CompareRequest& what, Comparison& all);
 
-// Throws UserError for whatever scene, run or option is wrong.
+// Reads the members, chooses the moments and makes the panels. Throws UserError if a scene, a run or an
+// option is wrong.
 Comparison read_comparison(const CompareRequest& what, const FilmRequest& film);
 
 }  // namespace grainreel

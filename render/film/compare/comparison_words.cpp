@@ -46,9 +46,9 @@ std::string size_with_plots(const std::vector<Panel>& panels, Film film) {
 
 }  // namespace
 
-// If the drive of this panel differs from that of the reference, its moments pass at another pace, and the
-// words are found from the moments. Otherwise, or where the drive does not matter, they are the segment's
-// own.
+// A segment's own words hold in a panel if the segments chose the moments, and if the segment is in motion or
+// the panel's drive has the frequency of the reference. Otherwise the words are found from the moments that
+// the panel shows.
 std::vector<std::string> playback_of(const FrameSource& source, const Comparison& all) {
     const std::vector<FilmSegment>& segments = all.pictures.segments;
     const Drive &drive = source.scene().drive, &reference = all.members[all.reference]->scene().drive;
@@ -78,7 +78,8 @@ void warn_of_pace(Comparison& all) {
     }
 }
 
-// Where the moments are those of a finished run, the scenes that are run beside it also show single moments.
+// If a finished run chose the moments, or cannot give every moment, then the scenes that are run beside it
+// also show single moments.
 void warn_of_single_moments(Comparison& all) {
     std::set<std::string> said;
     for (const auto& member : all.members) {
@@ -183,7 +184,7 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-// "20 Hz" of "\"20 Hz\"".
+// The value without its quotes: "20 Hz" of "\"20 Hz\"".
 std::string bare(const std::string& value) {
     const bool quoted =
         value.size() >= 2 && (value.front() == '"' || value.front() == '\'') && value.back() == value.front();
@@ -212,7 +213,7 @@ std::string with_unit(const std::string& text, const std::string& path) {
     return measured && is_number(text) ? fmt::format("{} {}", text, text_of(key->dimension).unit) : text;
 }
 
-// "g_level" of "drive.g_level", "density of big" of "species.big.density".
+// What a label calls a key: "g level" for "drive.g_level", "density of big" for "species.big.density".
 std::string words_of_key(const std::string& key) {
     std::string name = name_of(key);
     std::replace(name.begin(), name.end(), '_', ' ');

@@ -18,8 +18,8 @@ std::vector<std::string> playback_of(const FrameSource& source, const Comparison
 // What all panels say about time in one segment, as one line.
 std::string playback_of_all(const std::vector<Panel>& panels, std::size_t segment);
 
-// Warns of drives that would seem to move at another frequency, in panels that show moments of a finished
-// run.
+// If a finished run chose the moments, warns of drives that seem to move at another frequency, because there
+// are too few moments a period.
 void warn_of_pace(Comparison& all);
 
 // Warns of finished runs whose beds repeat themselves only every few periods of the drive, and of scenes that

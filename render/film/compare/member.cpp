@@ -100,7 +100,8 @@ void ComparedMember::close(RunStatus status, int exit_status, FirstFailure& fail
     if (failed_.any()) failure.note(failed_.what());
 }
 
-// Reading the members: scenes to run and runs on disk, or one scene with several values of a key.
+// From here on: reading the members. They are scenes to run and runs on disk, or one scene with several
+// values of a key.
 
 namespace {
 

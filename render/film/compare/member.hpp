@@ -30,9 +30,9 @@ class ComparedMember {
 
     const FrameSource& source() const { return *source_; }
     const FilmedScene& scene() const { return source_->scene(); }
-    const FrameArchive* archive() const { return source_->archive(); }  // null for what is run
-    const RunDriver* run() const { return driver_.get(); }              // null for a record
-    const RevisitedRun* record() const { return record_; }              // null for what is run
+    const FrameArchive* archive() const { return source_->archive(); }  // null for a scene that is run
+    const RunDriver* run() const { return driver_.get(); }              // null for a run on disk
+    const RevisitedRun* record() const { return record_; }              // null for a scene that is run
     const Clock& clock() const { return driver_ ? driver_->plan().clock : record_->clock(); }
     // Where the member's files are, as run.json of the whole film tells it.
     std::string place() const;
@@ -43,13 +43,14 @@ class ComparedMember {
     bool pack(const GoOn& go_on);
     std::string found_packing_text() const { return driver_ ? driver_->found_packing_text() : ""; }
     void start(const Pictures& pictures);
-    FramePtr next(const GoOn& go_on);  // null also after the last picture, when the rest of the run is done
+    FramePtr next(const GoOn& go_on);  // null also after the last picture; the rest of the run is then done
 
-    // keep_state() and then close(), which closes run.json, end the member whatever happened before. status:
-    // that of the whole film; where another member has failed, this one counts as interrupted. close() may be
-    // called twice.
+    // At the end keep_state() and then close() are called, whatever happened before. close() completes
+    // run.json and may be called twice. status: that of the whole film. If only another member has failed,
+    // this one counts as interrupted.
     void keep_state();
-    // Writes the formats of other programs that the scene asks for. watcher: see write_also().
+    // Writes the formats of other programs that the scene asks for. watcher: see write_also()
+    // (engine/run/driver/also_exports.hpp).
     void write_other_formats(const std::function<bool(const std::string&, double)>& watcher);
     void close(RunStatus status, int exit_status, FirstFailure& failure);
     void note_failure(const std::string& what) { failed_.note(what); }
@@ -59,8 +60,8 @@ class ComparedMember {
     double speed() const { return speed_; }  // particle-steps/s
 
   private:
-    std::unique_ptr<RunDriver> driver_;     // driver of the source when it is run
-    const RevisitedRun* record_ = nullptr;  // the source when it lies on disk
+    std::unique_ptr<RunDriver> driver_;     // for a scene that is run: its driver
+    const RevisitedRun* record_ = nullptr;  // for a run on disk: source_
     std::unique_ptr<FrameSource> source_;
     std::optional<FolderLock> folder_;  // lock of the run's folder, once that is made
     RunJson report_;                    // run.json of what is run

@@ -15,8 +15,8 @@ template <class Item>
 class BoundedQueue {
   public:
     // With a patience of 0 both sides work at the same time. Otherwise they take turns, which is faster where
-    // they share processors: items come out once the queue is full or no item has come in for as long as the
-    // patience, and items go in again once it is empty.
+    // they share processors. Items come out once the queue is full, or once no item has come in for as long
+    // as the patience. Items go in again once the queue is empty.
     explicit BoundedQueue(std::size_t capacity, std::chrono::milliseconds patience = {})
         : capacity_(capacity), patience_(patience) {}
 
@@ -32,7 +32,7 @@ class BoundedQueue {
         return true;
     }
 
-    // Waits for an item; none when the queue is closed and empty.
+    // Waits for an item. Gives none when the queue is closed and empty.
     std::optional<Item> pop() {
         std::optional<Item> item;
         {

@@ -30,9 +30,9 @@ double seconds_since(Watch::time_point start) {
 // has 8 MB at 1080p.
 constexpr std::size_t waiting_frames = 4, waiting_pictures = 2;
 
-// These apply when engine and film take turns. At the beginning and end of each turn some stage has nothing
-// to do, so turns are long: up to as many frames as 64 MB hold. An engine that needs longer than the patience
-// for one frame does not have to fill the queue: the film then starts with what is there.
+// These constants apply when engine and film take turns. At the beginning and end of each turn some stage has
+// nothing to do, so turns are long: up to as many frames as 64 MB hold. An engine that needs longer than the
+// patience for one frame does not have to fill the queue: the film then starts with what is there.
 constexpr std::int64_t turn_bytes = 64 << 20, bytes_a_grain = 250, longest_turn = 32;
 constexpr std::chrono::milliseconds turn_patience(250);
 constexpr std::chrono::milliseconds glance(50);  // how often the caller is asked whether it is in a hurry
@@ -46,8 +46,8 @@ std::size_t frames_that_wait(const FilmedScene& scene, const FilmOptions& option
         turn_bytes / (bytes_a_grain * moments * std::max<std::int64_t>(1, scene.grains()));
     return static_cast<std::size_t>(std::clamp<std::int64_t>(fit, waiting_frames, longest_turn));
 }
-// The pictures in the queue, the one being drawn, the one being encoded, and the last one, which is kept for
-// the poster.
+// Number of pictures that exist at once: those in the queue, the one being drawn, the one being encoded, and
+// the last one, which is kept for the poster.
 constexpr std::size_t pictures_in_all = waiting_pictures + 3;
 
 struct Order {

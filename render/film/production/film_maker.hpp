@@ -17,26 +17,29 @@
 
 namespace grainreel {
 
-// What a part of a film needs to know when the film is not drawn in one go.
+// The place of a part in its film, when the film is not drawn in one go.
 struct FilmExtent {
     // Simulated times (s, rising) of the whole film's pictures that come before this part's first one.
     std::vector<double> earlier;
     bool poster = true;  // whether this part has the picture that stands for the whole film
-    // Numbers of the frames at which the encoder begins anew; counted from the film's first frame, rising.
+    // Numbers of the frames at which the encoder begins a new group (FilmWriter::begin_group()), rising;
+    // counted from the first frame that is drawn here.
     std::vector<std::int64_t> groups;
 };
 
 struct FilmOptions {
     std::filesystem::path folder;  // movie.mp4 (or .webm, ...), poster.png, sheet.png and frames/ go here
     bool film = true;              // the film, in its scene's format, and the pictures that stand for it
-    bool frames = false;           // frames/000000.png ...; always with the format png
-    bool page_copy = false;        // makes a small copy of the film too, where a page may need one
-    bool to_stdout = false;        // the film goes to stdout in place of the folder: y4m only
+    bool frames = false;     // numbered pictures (frames/000000.png ...); the format png always has them
+    bool page_copy = false;  // makes a small copy of the film too, where a page may need one
+    bool to_stdout = false;  // the film goes to stdout in place of the folder: y4m only
     int raster_threads = 1;
     int encoder_threads = 1;
-    bool take_turns = false;  // with the caller of take(), which then waits while queued pictures are made
+    // The film takes turns with the caller of take(), which waits while queued pictures are made.
+    bool take_turns = false;
     gl::Provider gl = gl::Provider::automatic;
-    FramePtr start;             // frame from which start heights are counted; null: the first picture's frame
+    // The frame that decides the grains' heights at the start; null: the first picture's frame.
+    FramePtr start;
     std::int64_t pictures = 0;  // planned number for the whole film; a camera's orbit may last as long as it
     FilmExtent extent;
     // Called before a file is made or replaced in the folder; throws RunError when that is not allowed.
@@ -45,22 +48,22 @@ struct FilmOptions {
 
 struct FilmResult {
     bool complete = false;                        // the film was closed, not abandoned
-    std::int64_t frames = 0;                      // in the film
+    std::int64_t frames = 0;                      // number of frames in the film
     double draw_seconds = 0, encode_seconds = 0;  // busy time of the two threads
     double waited_seconds = 0;                    // how long the engine waited for a place in the queue
-    std::string gl;                               // context description
+    std::string gl;                               // description of the OpenGL context
     std::string file;                             // "movie.mp4"; empty without one
     bool pictures = false;                        // whether frames/ is there
     bool poster = false, sheet = false;           // poster.png, sheet.png are there
     std::string encoder;  // "H.264 in MP4: libx264 (...), crf 20, veryfast, 2 threads"; empty without a film
-    std::vector<std::string> notes;  // "1921x1080 padded to 1922x1080: ..."
+    std::vector<std::string> notes;  // for the user: "1921x1080 padded to 1922x1080: ..."
 };
 
 // The frames that one picture shows: a single one, or one for each panel, all of the same moment.
 using Frames = std::vector<FramePtr>;
 
-// Turns frames into a picture. It is the Renderer, or a test's own drawer. It is made, used and destroyed on
-// one thread.
+// Turns frames into a picture. A film of one scene has a RendererDrawer (film_maker.cpp), a comparison a
+// SideBySideDrawer (compare_run.cpp). A drawer is made, used and destroyed on one thread.
 class Drawer {
   public:
     virtual ~Drawer() = default;
@@ -69,10 +72,9 @@ class Drawer {
     // Takes frames that come before the first drawn one. Trails on later pictures may show them.
     virtual void remember(const Frames&) {}
     virtual std::string description() const = 0;
-    virtual std::string note() const { return {}; }  // what its user should know about it
-    virtual std::string last_note() const {
-        return {};
-    }  // what its user should know about all that it has drawn
+    virtual std::string note() const { return {}; }  // what the user should know about the drawer
+    // What the user should know about all pictures that it has drawn.
+    virtual std::string last_note() const { return {}; }
 };
 using DrawerMaker = std::function<std::unique_ptr<Drawer>()>;
 

@@ -10,11 +10,11 @@ namespace grainreel {
 namespace {
 
 constexpr double kChange = 0.1, kBright = 0.8;  // relative luminance
-constexpr std::size_t kMostTurns = 7;           // three pairs of changes, and half of one
-constexpr int kEvery = 4;                       // every fourth pixel is enough for a mean
-constexpr double kTogether = 0.05;              // s, within which changes count as one
+constexpr std::size_t kMostTurns = 7;  // in a second: three flashes of two changes each, and one more change
+constexpr int kEvery = 4;              // every fourth pixel is enough for a mean
+constexpr double kTogether = 0.05;     // s, within which changes count as one
 
-// For each colour: its part of the relative luminance, by the byte's value.
+// For red, green and blue: the part of the relative luminance that each value of a byte gives.
 using Parts = std::array<std::array<float, 256>, 3>;
 const Parts& parts_of_luminance() {
     static const Parts parts = [] {
@@ -36,7 +36,7 @@ void FlashWatch::add(const Picture& picture) {
     const double now = static_cast<double>(frames_++) / rate_;
     const Parts& parts = parts_of_luminance();
     std::array<double, kAcross * kDown> sum{}, count{};
-    // The first pixel of the place to the right of `place` that is looked at, or the row's end.
+    // The first pixel to the right of `place` that is looked at, or the row's end.
     const auto end_of = [&](int place) {
         const int first = ((place + 1) * picture.width + kAcross - 1) / kAcross;
         return std::min((first + kEvery - 1) / kEvery * kEvery, picture.width);

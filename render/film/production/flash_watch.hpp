@@ -1,8 +1,8 @@
 // Finds out whether a film flashes more often than three times a second, which can set off seizures: the
 // general flash threshold of WCAG 2.2, success criterion 2.3.1. A flash is a pair of opposing changes of the
-// relative luminance by 0.1 or more, the darker side being below 0.8. It counts where a quarter of a window
-// of a third of the picture each way (10 degrees of the visual field) changes in one direction at the same
-// time.
+// relative luminance by 0.1 or more, the darker side being below 0.8. It counts if a quarter of a window
+// changes in one direction at the same time. A window is as wide as a third of the picture and as high as a
+// third of it (10 degrees of the visual field).
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class FlashWatch {
     std::optional<double> too_much_at() const { return at_; }
 
   private:
-    static constexpr int kAcross = 24, kDown = 18;                                   // places in the picture
+    static constexpr int kAcross = 24, kDown = 18;  // the picture is divided into so many places
     static constexpr int kWide = kAcross / 3, kHigh = kDown / 3;                     // places in a window
     static constexpr int kColumns = kAcross - kWide + 1, kRows = kDown - kHigh + 1;  // number of windows
 

@@ -16,7 +16,7 @@ namespace grainreel {
 namespace {
 
 // Whether a poster is written while the film is still being made, so that a killed run has one: at the first
-// frame, and again each time the film has doubled.
+// frame, and from 32 frames on each time their number has doubled.
 bool poster_in_passing(std::int64_t count) {
     return count == 1 || (count >= 32 && std::has_single_bit(static_cast<std::uint64_t>(count)));
 }
@@ -169,7 +169,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int lines_of_copy = 720;
-constexpr double estimate_is_good_to = 2;  // a factor
+constexpr double estimate_is_good_to = 2;  // a film may become larger than estimated by this factor
 
 AvFramePtr frame_of(int width, int height) {
     AvFramePtr frame(av_frame_alloc());

@@ -40,7 +40,7 @@ bool plays_in_browsers(FilmFormat format);
 // than a page takes.
 bool may_need_copy(const Film& film, std::int64_t pictures);
 
-// Settings for a copy of the film with that height.
+// Settings of the encoder for the copy of a film. width, height: pixels of the film.
 EncoderSettings settings_of_copy(const FilmedScene& scene, const std::filesystem::path& path, int width,
                                  int height, int threads);
 
@@ -54,7 +54,8 @@ class PageCopy {
     PageCopy& operator=(const PageCopy&) = delete;
 
     void add(const Picture& picture);
-    // Gives the copy its final name, or removes it where the film beside it will do. Throws RunError.
+    // Gives the copy its final name. If browsers play the film itself and it is small enough, the copy is not
+    // needed and the destructor removes it. Throws RunError.
     void finish(const std::filesystem::path& film);
 
   private:
@@ -122,8 +123,8 @@ class PictureFiles {
     bool poster_done_, poster_written_ = false, complete_ = false;
     FlashWatch flashes_;
     std::string flash_remedy_;
-    DrawnFrame
-        last_;  // kept because it becomes the poster when the next picture comes after the poster's time
+    // The last picture. It becomes the poster when the next picture comes after the poster's time.
+    DrawnFrame last_;
     std::unique_ptr<FilmWriter> film_;
     std::unique_ptr<PageCopy> copy_;
     std::string film_file_, left_file_, left_encoder_;

@@ -1,6 +1,6 @@
-// From the pictures of a film to its frames: some pictures are held for several frames so that a caption can
-// be read, and a film can be drawn in parts; film_times.csv says which moment each frame shows. Also here:
-// the size of the film's file, its limits and warnings, all before the film is made.
+// How the pictures of a film become its frames. A picture with a caption is held for several frames, so that
+// the caption can be read. A film can be drawn in parts, and film_times.csv says which moment each frame
+// shows. The size, limits and warnings of a film are also here; they are known before the film is made.
 #pragma once
 
 #include <cmath>
@@ -78,7 +78,7 @@ class FilmTimesTable {
   public:
     // Adds the next picture, which the film shows in so many frames.
     void add(const Frame& picture, std::int64_t frames);
-    // Writes the times of the film's first `frames`. Throws RunError.
+    // Writes the rows of the film's first `frames` frames. Throws RunError.
     void write(const std::filesystem::path& path, std::int64_t frames) const;
 
   private:
@@ -93,13 +93,14 @@ class FilmTimesTable {
 // is good to a factor of two or three.
 double estimated_film_size(const Film& film, std::int64_t frames);
 
-// At 30 frames a second such a film plays for four days; its schedule takes 160 MB.
+// Limit for the frames of a film. At 30 frames a second such a film plays for four days; its schedule takes
+// 160 MB.
 constexpr std::int64_t most_frames = 10'000'000;
 // Limit for the earlier moments over which pictures are exposed or averaged; their lists take 2 GB at worst.
 constexpr std::int64_t most_moments = 20'000'000;
 
-// Throws UserError when the film would have more frames or more earlier moments than that. The error names
-// the segment that makes most of them.
+// Throws UserError when the film would have more than most_frames frames or most_moments earlier moments. The
+// error names the segment that makes most of them.
 void check_schedule(const FilmedScene& scene, const std::vector<SegmentCount>& counts);
 
 // Throws UserError when film.max_size leaves so few bits for a pixel that nothing could be made out.

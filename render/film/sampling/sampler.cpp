@@ -38,7 +38,8 @@ struct Stretch {
     double start = 0;        // s, where the segment begins; for motion
     double frame = 0;        // s of simulated time for each frame; for motion
     std::int64_t first = 0;  // step
-    std::int64_t every = 0;  // steps between shots; 0: those nearest to start + k frame, or by periods
+    // Steps between shots. 0: the shots lie at the steps nearest to start + k frame, or `periods` apart.
+    std::int64_t every = 0;
     double cycles = 0;       // cycles at the first shot; for segments locked to a drive that changes
     int periods = 0;         // periods between shots of a locked segment; else 0
     std::int64_t stop = 0;   // first step behind the segment

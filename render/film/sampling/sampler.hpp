@@ -16,14 +16,15 @@ struct Shot {
     int segment = 0;
 };
 
-// The segments of a film; a usual one where the scene has none.
+// The segments of a film; one with the defaults if the scene has none.
 std::vector<FilmSegment> segments_of(const Film& film);
 
 // What a frame's caption says about time: "real time", "slow motion, 1/10 speed" or "1 frame a period at
 // phase 0.25 (plays 1.5×)". UTF-8.
 std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate);
 
-// The segment as it is played: where it asks for frames closer than the steps, it gets one frame a step.
+// The segment as it is played: if it asks for frames that lie closer than the steps, it gets one frame a
+// step.
 FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock);
 // A warning for each segment that, played one frame a step, is faster than its playback says.
 std::vector<std::string> pace_warnings(const FilmedScene& scene, const Clock& clock);
@@ -31,8 +32,9 @@ std::vector<std::string> pace_warnings(const FilmedScene& scene, const Clock& cl
 // How many shots a segment makes at most: motion may round two shots to one step.
 struct SegmentCount {
     std::int64_t shots = 0;
-    std::int64_t moments_a_shot = 0;    // earlier steps over which each shot is exposed or averaged
-    std::int64_t exposures_a_shot = 0;  // those of them that are exposed, and therefore drawn
+    std::int64_t moments_a_shot = 0;  // earlier steps over which each shot is exposed or averaged
+    // Of these steps, the number over which a shot is exposed; they are drawn.
+    std::int64_t exposures_a_shot = 0;
 };
 
 // Counts the shots of each segment by formulas, without making them. Throws UserError when a segment is
@@ -47,20 +49,21 @@ std::vector<SegmentCount> count_film(const FilmedScene& scene, const Clock& cloc
 // shots (check_schedule).
 std::vector<Shot> film_schedule(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
 
-// How a segment is shown while the bed repeats itself after that many periods: its locked frames and means
-// span whole multiples of them.
+// The segment as it is shown while the bed repeats itself after `periods` periods of the drive. A whole
+// multiple of `periods` lies between its locked frames, and its means span a whole multiple.
 FilmSegment spanning(FilmSegment segment, int periods);
 
-// The earlier steps that the picture at `shot` is exposed over besides its own, rising; they may lie before
-// the run. In motion they lie evenly over the exposure. In locked segments they lie whole periods apart, or
-// whole multiples of `periods` where the bed repeats itself after that many. Empty without an exposure.
+// The earlier steps over which the picture at `shot` is exposed, rising; its own step is not among them. They
+// may lie before the run. In motion they lie evenly over the exposure. In locked segments they lie whole
+// periods apart, or whole multiples of `periods` where the bed repeats itself after that many. Empty without
+// an exposure.
 std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
                                         int periods = 1);
 
-// The steps of which the picture's mean is made, rising: 16 for each period of `average`, of which the last
-// one is the shot's own, and before them the step at which the periods begin. They are spread over the next
-// multiple of `periods`, after which the bed repeats itself. They may lie before the run. Empty without a
-// mean.
+// The steps over which the mean of the picture at `shot` is taken, rising. There are 16 evenly spaced ones
+// for each period of `average`, and the last of them is the shot's own step. Before them stands the step at
+// which the first period begins. If the bed repeats itself after `periods` periods, the steps are spread over
+// the next multiple of `periods`. They may lie before the run. Empty without a mean.
 std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
                                          int periods = 1);
 

@@ -70,8 +70,8 @@ std::vector<Shot> shots_at(const std::vector<Instant>& instants, const std::vect
 
 namespace {
 
-// Phases (turns) and numbers of periods closer than this count as equal: a step is never less than 1e-7 of
-// them.
+// Phases (turns) and numbers of periods that differ by less than this count as equal. A step is at least 1e-7
+// of a period.
 constexpr double hair = 1e-9;
 
 double mean_interval(const std::vector<Frame>& moments) {

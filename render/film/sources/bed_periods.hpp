@@ -1,5 +1,5 @@
-// For beds that repeat themselves only every so many periods of the drive: chooses the locked frames that
-// their film shows, and makes means over such periods.
+// Chooses the locked frames of a film whose bed repeats itself only every few periods of the drive, and makes
+// means over such periods.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace grainreel {
 
 class BedPeriods {
   public:
-    // shots: all of the film. Which of them are shown is counted from the first shot of each segment, so that
-    // a resumed run shows the same ones. may_leave_out: false if all shots must be shown. segments: those of
+    // shots: all shots of the film. The shown ones are counted from the first shot of each segment, so that a
+    // resumed run shows the same ones. may_leave_out: false if all shots must be shown. segments: those of
     // the film, which may differ from the scene's own.
     BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Shot>& shots,
                const std::vector<FilmSegment>& segments, bool may_leave_out);
@@ -45,7 +45,7 @@ class BedPeriods {
     const int wanted_;
     const bool may_leave_out_;
     const double diameter_;  // m, mean diameter of the grains
-    // Whether the film has locked frames, and shows displacements over periods or means of them.
+    // locks_: the film has locked frames. means_: it shows displacements or means over periods.
     bool locks_ = false, means_ = false;
     int found_ = 1;
     std::map<int, std::int64_t> first_;  // for each segment, the step at which it begins
@@ -56,7 +56,8 @@ class BedPeriods {
 // Positions of grains and bodies become means over the moments; velocities become the displacements over the
 // span, divided by it. moments: by rising time; the first one begins the span and is not in the mean, the
 // last one is the frame's own. span: s between these two. depth: period in m of a periodic container, along
-// x; 0 for none. A grain that is missing at some of the moments stays as it is.
+// x; 0 for none. A grain that is missing at some of the moments stays as it is. Nothing is done if the number
+// of bodies differs between the moments.
 void set_mean(Frame& frame, const std::vector<FramePtr>& moments, double span, double depth);
 
 }  // namespace grainreel

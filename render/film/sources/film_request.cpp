@@ -37,7 +37,7 @@ void fit_to_paper(Film& film, const PrintSize& print) {
 ThreadPlan plan_threads(int processors, bool film, std::int64_t grains) {
     const int useful = useful_threads(processors, grains);
     if (!film) return {useful, 1, 1};
-    // On one or two processors the engine and the film take turns with all of them; beyond, the film gets
+    // On one or two processors the engine and the film take turns with all of them; with more, the film gets
     // processors of its own.
     if (processors <= 2) return {std::min(useful, processors), 1, 1, true};
     const int share = std::max(1, processors / 6);

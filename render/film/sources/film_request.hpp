@@ -52,8 +52,8 @@ struct RenderRequest {
     std::optional<std::int64_t> frame;  // in place of `at`: number of the film's frame, from 0
     bool frame_of_file = false;         // `frame` counts the frames of another program's files
     PrintSize print;                    // size of one picture
-    std::optional<int>
-        every;           // draws one of so many kept frames of the trajectory; none: the film's pictures
+    // Draws one in `every` kept frames of the trajectory. None: draws the pictures of the film.
+    std::optional<int> every;
     bool replay = true;  // moments that were not kept are brought back
     std::optional<PartsWanted> parts;
 };
@@ -86,9 +86,9 @@ ThreadPlan plan_threads(int processors, bool film, std::int64_t grains);
 // Plans the threads of a film that has the machine for itself. wanted: 0 for as many as the machine gives.
 ThreadPlan drawing_threads(int wanted);
 
-// The moments of a saved run that are drawn: every so many of them from `from` to `to`. When the frames are
-// at one phase of the drive, only those are taken at which the bed looks alike. Throws UserError when there
-// is none.
+// The moments of a saved run that are drawn: those from `from` to `to`, or one in `every` of them. If they
+// are all at one phase of the drive, only those stay at which the bed looks alike. Throws UserError when
+// there is none.
 std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive& run);
 
 // For moments at one phase of the drive: those that lie whole multiples of `periods` after the first one. A

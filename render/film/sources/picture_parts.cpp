@@ -109,7 +109,7 @@ EarlierPictures::EarlierPictures(const FilmedScene& scene, const Clock& clock,
 
 std::optional<Taken> EarlierPictures::next() {
     if (next_ == count_) return std::nullopt;
-    // The list lacks damaged moments. Without this check another moment would take the place of such a one.
+    // If a moment is damaged, the list lacks it, and without this check another moment would take its place.
     if (next_ >= moments_->moments().size() || moments_->place(next_) != next_)
         throw UserError(moments_->damage().empty()
                             ? moments_->path().string() + ": lacks a picture that it has had"

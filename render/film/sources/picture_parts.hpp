@@ -49,16 +49,18 @@ class PictureParts {
     // Only the film of the scene is used. first: the first step that can be had.
     PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first);
 
-    // The other moments that the picture at `step` needs, in no order; some may come twice. rule: the segment
-    // by which the picture is taken. periods: number of periods after which the bed repeats itself.
+    // The other moments that the picture at `step` needs, in no particular order; some may come twice. rule:
+    // the segment by which the picture is taken. periods: number of periods after which the bed repeats
+    // itself.
     std::vector<WantedMoment> moments(std::int64_t step, const FilmSegment& rule, int periods) const;
 
-    // Adds the parts that the source can supply. If grains have come or gone in between, displacements and
-    // means are left out.
+    // Adds the parts that the source can supply. A grain that is missing at an earlier moment gets no
+    // displacement or no mean.
     void add(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const;
 
   private:
-    // Steps of the moments; empty when the picture has no such part.
+    // Steps of the moments that displacements, the exposure and the mean need; empty when the picture has no
+    // such part.
     std::vector<std::int64_t> earlier(std::int64_t step, int periods) const;
     std::vector<std::int64_t> exposed(std::int64_t step, const FilmSegment& rule, int periods) const;
     std::vector<std::int64_t> averaged(std::int64_t step, const FilmSegment& rule, int periods) const;
@@ -71,13 +73,13 @@ class PictureParts {
     double depth_;  // m, period of a periodic container along x; 0 for none
 };
 
-// When a run goes on after it was broken off: gives the pictures that its film had taken before, from the
-// moments that were kept for them.
+// Gives the pictures that the film of a resumed run had taken before the run was broken off, from the moments
+// that were kept for them.
 class EarlierPictures final : private PartSupply {
   public:
     // run: the run's folder. shots: those of the film. count: how many of the kept moments are pictures of
-    // the film. measures: rows of the run, with the columns of `shown`; null for a film that shows none.
-    // files: know what has flowed out. wear: for a film whose walls are coloured by wear, else null.
+    // the film. measures: rows of the run, with the columns that the film shows; null if it shows none.
+    // files: they tell what has flowed out. wear: for a film whose walls are coloured by wear, else null.
     EarlierPictures(const FilmedScene& scene, const Clock& clock, const std::filesystem::path& run,
                     const std::vector<Shot>& shots, std::size_t count,
                     std::shared_ptr<const MeasureTable> measures, const RunFiles& files,

@@ -29,8 +29,8 @@ class RecordedRun final : public FrameSource, private PartSupply {
     //
     // Pictures are framed by how high the run's grains got (known_reach), or, with for_questions, as in the
     // run's own film, which did not know that height yet. With for_questions, contacts that cannot be used
-    // are left out with a line in faults(), since they can be brought back. With alone, what the kept frames
-    // lack cannot be had elsewhere, and missing parts are reported.
+    // are left out with a line in RunArchive::faults(), since they can be computed again. With alone, what
+    // the kept frames lack cannot be had elsewhere, and missing parts are reported.
     struct Use {
         bool for_questions = false;
         bool alone = true;
@@ -41,9 +41,10 @@ class RecordedRun final : public FrameSource, private PartSupply {
     RecordedRun(const RecordedRun&) = delete;
     RecordedRun& operator=(const RecordedRun&) = delete;
 
-    // Leaves out damaged frames, as the archive does.
+    // Leaves out damaged frames (RunArchive). brought_back: the caller computes their moments again.
     void leave_out_damaged(bool brought_back = false) { archive_->leave_out_damaged(brought_back); }
-    // From now on the kept frames are alone, and missing parts are reported.
+    // From now on the source is `alone`: what the kept frames lack cannot be had, and missing parts are
+    // reported.
     void do_without_others();
 
     const FilmedScene& scene() const override { return scene_; }  // the scene is named after the folder

@@ -15,17 +15,17 @@ namespace grainreel {
 // and adds what the purpose of a film implies. Throws UserError for other keys.
 Assignments sets_for_drawing(const Assignments& sets);
 
-// The scene.toml of a run with such changes, named after the folder. Throws UserError as above, and for a
-// scene that cannot be read.
+// The scene.toml of a run with changes to the drawing, named after the folder. Throws UserError as above, and
+// for a scene that cannot be read.
 FilmedScene scene_of_run(const std::filesystem::path& folder, const Assignments& sets);
 
-// The scene of a checkpoint as it was used, with such changes; named after the file. Throws UserError
-// as above.
+// The scene of a checkpoint as it was used, with changes to the drawing; named after the file. Throws
+// UserError as above.
 FilmedScene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
 
 // How high the grains of a finished run got, in m above the floor's rest position: in every frame 99 of 100
-// grains lie entirely below this height. For a long trajectory with many grains only evenly spread frames are
-// read. Damaged frames do not count. Empty without grains.
+// grains lie entirely below this height. Of a long trajectory with many grains only some evenly spread frames
+// are read. Damaged frames do not count. Empty without grains.
 std::optional<double> known_reach(const FrameArchive& archive);
 
 // The same height for one frame.

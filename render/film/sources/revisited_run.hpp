@@ -1,6 +1,7 @@
 // A run that lies on disk, as a source of any of its moments (RevisitedRun), and the moments that a film of
-// it shows (FilmOfRun). If the schedule is that of the run's own film, these are the moments of that film
-// (film_times.csv); otherwise they follow from the segments, as they do while a scene is run.
+// it shows (FilmOfRun). If the schedule is that of the run's own film, a film of the run shows the same
+// moments as that one (film_times.csv). Otherwise its moments follow from the segments, as they do while a
+// scene is run.
 #pragma once
 
 #include <cstdint>
@@ -57,9 +58,9 @@ class FilmOfRun {
     std::vector<double> differences_;      // m, period_difference_m of these rows
 };
 
-// A run that lies on disk, as a source of any of its moments: those that it kept (RecordedRun), and the
-// others, which are "brought back", that is computed again from its checkpoints. Where that is impossible or
-// not allowed, a picture shows the nearest kept moment, and news() counts such pictures.
+// A run that lies on disk, as a source of any of its moments. The run kept some of them (RecordedRun). The
+// others are "brought back", which means computed again from its checkpoints. Where that is impossible or not
+// allowed, a picture shows the nearest kept moment, and news() counts such pictures.
 class RevisitedRun final : public FrameSource, private PartSupply {
   public:
     // sets: see RecordedRun. replay: false if nothing may be brought back. sharers: number of runs that share
@@ -71,7 +72,7 @@ class RevisitedRun final : public FrameSource, private PartSupply {
 
     const RecordedRun& record() const { return run_; }
     const Clock& clock() const { return run_.clock(); }
-    // The film of its scene, as far as the run has come, or as the run's own film shows it.
+    // The moments that a film of this run shows.
     const FilmOfRun& film() const { return film_; }
     // The film's segments, without means and exposures when these cannot be had.
     std::vector<FilmSegment> segments() const;
@@ -82,8 +83,8 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     bool has_all(const Pictures& pictures) const;
     // Whether the step would be brought back.
     bool is_brought_back(std::int64_t step) const;
-    // Brings back the moments on the way to the step. Throws UserError when they show another run than the
-    // kept files.
+    // Replays to a kept moment on the way to the step, and compares the grains. Throws UserError when they
+    // differ: then the checkpoints belong to another run. Only the first call compares.
     void prove(std::int64_t step) {
         reachable_.prove(step, [](double) { return true; });
     }
@@ -128,9 +129,10 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     std::vector<Shot> shots_;
     std::vector<FilmSegment> segments_;
     KeptMoments kept_;
-    std::set<std::int64_t> wanted_;             // steps whose moments later pictures need
-    std::size_t next_ = 0;                      // index of the next shot
-    std::optional<std::int64_t> brought_back_;  // the brought-back step whose frame has its contacts
+    std::set<std::int64_t> wanted_;  // steps whose moments later pictures need
+    std::size_t next_ = 0;           // index of the next shot
+    // Step of the last picture, if it was brought back; its frame then has its contacts.
+    std::optional<std::int64_t> brought_back_;
 };
 
 }  // namespace grainreel

@@ -146,15 +146,15 @@ void SceneRun::look_at_bed_periods(const Simulation& simulation) {
                        simulation.measure("period_difference_m"));
 }
 
-// Takes the wear over the same spans of time as the records of fields.nc, so that a film made during the run
-// and one made from its files are alike.
+// Takes pressure and wear at the ends of the records of fields.nc, so that a film made during the run and one
+// made from its files are alike.
 void SceneRun::look_at_wear(const Simulation& simulation) {
     if (driver_.plan().fields.ends_record(simulation.step()))
         worn_ = std::make_shared<const std::vector<MeshWear>>(
             wear_among(scene_, simulation.field_sets(), simulation.fields()));
 }
 
-// Reads the wear that is shown before the first record has ended.
+// Reads the pressure and wear that are shown before the first record of this run has ended.
 void SceneRun::read_wear_before() {
     if (driver_.goes_on()) {
         wear_before_ = std::make_shared<const WearReader>(driver_.folder() / "fields.nc", scene_);

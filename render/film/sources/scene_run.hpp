@@ -22,7 +22,7 @@ class SceneRun final : public FrameSource {
     SceneRun(const FilmedScene& scene, RunDriver& driver) : scene_(scene), driver_(driver) {}
 
     // Has the run keep its key moments (engine/run/driver/agenda.hpp) with their contacts. To be called
-    // before start(). A resumed run does what it did before it was broken off.
+    // before start(). A resumed run keeps them if it did so before it was broken off, and not otherwise.
     void keep_key_moments() { keys_wanted_ = true; }
     // Closes the files of the run's folder that it reads. Nothing else may be called afterwards.
     void close() {
@@ -51,8 +51,8 @@ class SceneRun final : public FrameSource {
     FrameWishes wishes();
     KeptMoments wanted_moments() const;
     std::optional<Taken> waiting();  // the next picture of the frame that was taken last
-    // Whether the film shows no picture of that step, by what is known so far of the bed's periods. Notes the
-    // pictures that it does show.
+    // Whether the film leaves that step out, by what is known so far of the bed's periods. Also notes the
+    // pictures of the step that the film shows (segments_waiting_).
     bool leaves_out(std::int64_t step);
     void look_at_bed_periods(const Simulation& simulation);
     void look_at_wear(const Simulation& simulation);
@@ -67,8 +67,9 @@ class SceneRun final : public FrameSource {
     std::int64_t count_ = 0;
     std::optional<BedPeriods> bed_periods_;
     std::optional<PictureParts> parts_;
-    std::shared_ptr<const WearReader> wear_before_;      // wear so far of a resumed run
-    std::shared_ptr<const std::vector<MeshWear>> worn_;  // wear since the last record of fields.nc ended
+    std::shared_ptr<const WearReader> wear_before_;  // reads the wear of a resumed run up to its break
+    // Pressure and wear of each mesh, as in the last record of fields.nc that has ended.
+    std::shared_ptr<const std::vector<MeshWear>> worn_;
     std::optional<EarlierPictures> earlier_;
     FramePtr frame_;                     // the frame that was taken last
     std::vector<int> segments_waiting_;  // segments of its pictures that are still to come

@@ -49,8 +49,8 @@ CameraPath::CameraPath(const FilmedScene& scene, const PictureLayout& layout)
     if (still_) still_->nearest = std::min(still_->nearest, 0.5 * least_depth(all));
 }
 
-// Frames the part that framed_part() gives. Where a container is cut off, as much of it is left out as the
-// walls allow: they must not come close to a camera that looks down.
+// Frames the part that framed_part() gives. If the container is cut off there, its walls may come too close
+// to a camera that looks down. Then more of the container is framed, or all of it.
 void CameraPath::frame_by_itself(const FilmedScene& scene) {
     FramedPart part = framed_part(scene);
     double scale = frame_part(scene, part);

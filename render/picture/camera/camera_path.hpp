@@ -38,15 +38,15 @@ class CameraPath {
     // duration stands still.
     CameraPath(const FilmedScene& scene, const PictureLayout& layout);
 
-    // The view in the lab's frame; a camera that follows is moved from there. film_time: s since the first
-    // frame.
+    // The view in the lab's frame; for a camera that follows the container, the caller moves it. film_time: s
+    // since the first frame.
     View at(double film_time) const;
     bool moves() const { return camera_.moves(); }
     const std::vector<Vec3>& meshes() const { return meshes_; }  // the points of mesh_reach()
 
   private:
     struct Pose {
-        double azimuth, elevation, zoom;  // degrees
+        double azimuth, elevation, zoom;  // azimuth and elevation in degrees; zoom is a factor
         Vec3 target;
     };
     using Track = std::optional<MonotoneCurve>;
@@ -70,8 +70,11 @@ class CameraPath {
     const double margin_;             // pixels, between what is framed and the port's border
     const std::vector<Vec3> meshes_;  // m, outermost points of the meshes
     Vec3 target_;
-    std::optional<View> still_;         // the view of a camera with the plain automatic framing
-    double distance_ = 0, shift_ = 0;   // m, of the eye from the target, and of both upwards in the picture
+    // The view of a camera that stands still, framed automatically and without a target of its own.
+    std::optional<View> still_;
+    // m: the distance of the eye from the target, and how far the eye and the point that it looks at are
+    // shifted upwards in the picture.
+    double distance_ = 0, shift_ = 0;
     double focal_ = 1;                  // pixels, without the zoom
     double radius_ = 0;                 // m: radius about the target of all that is drawn
     Track azimuth_, elevation_, zoom_;  // the zoom's track holds its logarithm
@@ -80,9 +83,9 @@ class CameraPath {
 
 // The scene's camera as the film begins.
 View frame_container(const FilmedScene& scene, const PictureLayout& layout);
-// Pixels a metre in the middle of what that camera frames.
+// Pixels a metre in the middle of what the scene's camera frames, as the film begins.
 double framed_scale(const FilmedScene& scene, const PictureLayout& layout);
-// Pixels from the highest to the lowest point that has to be seen by that camera.
+// Pixels from the highest to the lowest point that has to be seen by the scene's camera.
 double framed_height(const FilmedScene& scene, const PictureLayout& layout);
 
 // Draws the container's motion `factor` times as large as it is, so that it can be seen. Grains keep their

@@ -20,7 +20,7 @@ namespace {
 
 // As a share of the container's height. If the picture should reach higher, the whole container is shown.
 constexpr double almost_all = 0.88;
-constexpr double steepest = 60;  // degrees: a camera that looks more steeply down or up shows all of it
+constexpr double steepest = 60;  // degrees; looking down or up more steeply, the camera shows all of it
 
 double upward(const FilmedScene& scene) {
     return std::abs(scene.drive.direction.z());

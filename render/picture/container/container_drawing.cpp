@@ -1,5 +1,5 @@
-// Draws the container as a whole: which part goes before or behind the grains, free walls, and the fade of
-// grains that leave. The shapes of cylinder and prism are in draw_cylinder.cpp and draw_prism.cpp.
+// Draws the container as a whole: which part goes in front of or behind the grains, free walls, and the fade
+// of grains that leave. The shapes of cylinder and prism are in draw_cylinder.cpp and draw_prism.cpp.
 #include "render/picture/container/container_drawing.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // The container as a cut-away. Walls have a visible thickness. Walls that the eye sees from inside are solid
 // and lie behind the grains; walls that it sees from outside are bare glass edges over the grains.
 //
-// The container is convex and the grains are inside. So what lies behind the grains is painted before them,
-// what lies in front of them is painted after them, and every edge stays smooth. WallOrder takes the painted
+// The container is convex and the grains are inside. So what lies behind the grains is painted first, and
+// what lies in front of them is painted after them. This keeps every edge smooth. WallOrder takes the painted
 // faces and corrects the picture where grains reach through a wall or are outside.
 #pragma once
 
@@ -36,12 +36,13 @@ struct WallSide {
 };
 
 struct ContainerShapes {
-    WallSide behind, before;  // painted before and after the grains
-    Shapes over;              // painted over everything
+    // The walls behind the grains, which are painted first, and those in front of them, painted after.
+    WallSide behind, before;
+    Shapes over;  // painted over everything
 };
 
-// The camera's view before it follows anything (at_rest) and in the present frame (now). moves: whether the
-// camera moves in the course of the film.
+// The camera's view before it follows the container (at_rest) and in the present frame (now). moves: whether
+// the camera moves in the course of the film.
 struct Views {
     View at_rest, now;
     bool moves = false;
@@ -58,9 +59,9 @@ std::optional<double> exit_level(const FilmedScene& scene);
 
 // Grains that leave the run below an outlet are gone from one frame to the next. So that they do not vanish
 // in mid-air, they fade while they fall the last part of the way. This gives the strength of grains in each
-// row of a port of this height, counted from the top, 0 to 255. It is empty where nothing fades: with a tray,
-// without an outlet or a box that grains leave through below a vessel, and where the eye looks down so
-// steeply that rows with grains of the bed would fade too. meshes: m, their outermost points.
+// row of a port of this height, counted from the top, 0 to 255. It is empty if nothing fades: with a tray;
+// without an outlet and without a box below all meshes through which grains leave; and if the eye looks down
+// so steeply that rows with grains of the bed would fade too. meshes: m, their outermost points.
 std::vector<std::uint32_t> exit_fade(const FilmedScene& scene, const View& view, int height,
                                      const std::vector<Vec3>& meshes = {});
 

@@ -77,8 +77,8 @@ class Prism {
     // Draws the back pane, tinted, and the outlines of both panes. A periodic depth has no panes.
     void panes(const WallProfile& left, const WallProfile& right) {
         if (container_.periodic_depth) return;
-        // With a lid, which has edges of its own, the lines are open; an open top shows the bare rims of the
-        // panes.
+        // A lid has edges of its own, so the outlines are open at the top. Without a lid they are closed, and
+        // show the bare rims of the panes.
         std::vector<Flat> outline(left.inner.rbegin(), left.inner.rend());
         outline.insert(outline.end(), right.inner.begin(), right.inner.end());
         const Sketch& walls = sketches_.walls;

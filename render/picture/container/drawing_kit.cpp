@@ -14,8 +14,8 @@ namespace grainreel {
 
 namespace {
 
-// Sine of 8 degrees: half the angle over which a part changes from glass to solid, and the far end becomes
-// the near one, while the camera moves or the container turns.
+// Sine of 8 degrees. While the camera moves or the container turns, a part changes from glass to solid over
+// twice this angle, and the far end becomes the near one over twice this angle.
 const double fade = std::sin(8 * std::numbers::pi / 180);
 
 }  // namespace

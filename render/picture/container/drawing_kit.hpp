@@ -40,7 +40,7 @@ class Sketch {
     bool faces(const Vec3& point, const Vec3& normal) const {
         return views_.now.faces(moved(point), turned(normal));
     }
-    // Take a point and a direction from the body's frame into the lab.
+    // These take a point and a direction from the body's frame into the lab.
     Vec3 moved(const Vec3& point) const { return turned(point) + offset_; }
     Vec3 turned(const Vec3& direction) const { return turned_ ? Vec3(rotation_ * direction) : direction; }
     // The direction from the middle of the body to the eye, in the body's frame.
@@ -108,9 +108,9 @@ struct Sketches {
 void draw_prism(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 void draw_cylinder(const Container& container, const Sketches& sketches, ContainerShapes& shapes);
 
-// The piece of a plane that lies in the container, or without a container in the box of everything that the
-// camera looks at, when the plane has moved by `offset`: its corners in order, m. Empty when there is no such
-// piece.
+// The piece of a plane, moved by `offset`, that lies in the container; without a container, the piece that
+// lies in the box of everything that the camera looks at. These are its corners in order, m; empty if there
+// is no such piece.
 std::vector<Vec3> piece_of_plane(const FreeWall& wall, const FilmedScene& scene, const Vec3& offset);
 void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
                     ContainerShapes& shapes);

@@ -1,5 +1,4 @@
-// The map of the shadow on the ground, which is filled from above the scene, and the rows of the picture that
-// it darkens.
+// Fills the map of the shadow on the ground, and darkens the rows of the picture by it.
 #include "render/picture/container/ground.hpp"
 
 #include <algorithm>
@@ -102,8 +101,8 @@ void ShadowMap::place_around_extent(const Vec3& to_key) {
     low_ = middle.array() - 0.5 * side_;
 }
 
-// Adds the floor's plate, or the tray's plate where there is a tray. Its shadow is dense at its foot. From
-// each cell the light is followed back to the plate, in the frame of the plate's body.
+// Adds the floor's plate, or the tray's plate where there is a tray. Its shadow is nearly complete (optical
+// depth 4). From each cell the light is followed back to the plate, in the frame of the plate's body.
 void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
     const double half = outer_floor_half_width(foot_), cell = side_ / kSide;
     const bool round = foot_.shape == Container::Shape::cylinder;

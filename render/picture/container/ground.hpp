@@ -21,8 +21,9 @@ class ShadowMap {
   public:
     static constexpr int kSide = 192;  // cells
 
-    // The ground lies under the lowest point that the container reaches. The scene must have a container that
-    // grains do not leave below.
+    // The ground lies under the lowest point that the container reaches. The scene must have a container, and
+    // its grains must not fall through the ground: it has no outlet without a tray, and no box that grains
+    // leave through.
     explicit ShadowMap(const FilmedScene& scene);
 
     // to_key: unit vector towards the key light, in the lab.
@@ -48,7 +49,7 @@ class ShadowMap {
     const MeshShadows meshes_;
     const Extent extent_;
     const Container foot_;  // what stands on the ground: the container, or the tray below it
-    double height_ = 0, low_plate_ = 0, aside_ = 0;  // m; aside_: how far the drive is drawn to carry it
+    double height_ = 0, low_plate_ = 0, aside_ = 0;  // m; aside_: horizontal stroke, as it is drawn
     Eigen::Vector2d low_{0, 0};
     double side_ = 1;
     std::vector<float> cells_, before_;

@@ -30,7 +30,7 @@ HWY_INLINE Between between(V at, int side) {
 }
 
 // There are four loads a pixel. A gather takes as long, and much longer on processors that are protected
-// against data sampling.
+// against Gather Data Sampling.
 HWY_INLINE V strength(const ShadeMap& map, const Between& u, const Between& v) {
     const F d;
     const auto first = hn::Add(hn::Mul(v.cell, hn::Set(I(), map.side)), u.cell);

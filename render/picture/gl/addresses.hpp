@@ -1,5 +1,6 @@
-// Asks for room before drawing begins. The libraries that draw words and pictures end the process when a
-// limit of address space (`ulimit -v`) stops them. So they are not called where little is left.
+// Checks that enough address space is left before drawing begins. The libraries that draw words and pictures
+// end the process when a limit of address space (`ulimit -v`) stops them. So they are not called where little
+// is left.
 #pragma once
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ inline bool has_addresses(std::size_t bytes) {
     return true;
 }
 
-// Throws RunError where they are not free.
+// Throws RunError if so many bytes of addresses are not free.
 inline void need_addresses(std::size_t bytes) {
     if (has_addresses(bytes)) return;
     throw RunError(fmt::format(

@@ -130,9 +130,9 @@ class Context {
 // Mesa's software rasteriser through libOSMesa, opened at run time.
 std::unique_ptr<Context> make_osmesa_context(int raster_threads);
 
-// A context through libEGL, which is opened at run time. It is on a device (EGL_EXT_platform_device: the
-// first device that gives one, a GPU where there is one) or without any (EGL_MESA_platform_surfaceless), in
-// the order asked for.
+// A context through libEGL, which is opened at run time. It is made on a device (EGL_EXT_platform_device; the
+// first device that gives a context, a GPU if there is one) or without a device
+// (EGL_MESA_platform_surfaceless). `order` says which is tried first.
 enum class EglPlatform { device, surfaceless };
 std::unique_ptr<Context> make_egl_context(int raster_threads,
                                           const std::vector<EglPlatform>& order = {EglPlatform::device,

@@ -4,8 +4,8 @@
 
 namespace grainreel::gl {
 
-// automatic: OSMesa, which gives the same picture on every machine; where OSMesa is missing (Mesa dropped it
-// in 25.1), EGL, and a note says so.
+// automatic: OSMesa, which gives the same picture on every machine. If OSMesa is missing (Mesa dropped it in
+// 25.1), EGL takes its place, and a note says so.
 enum class Provider { automatic, osmesa, egl };
 
 }  // namespace grainreel::gl

@@ -29,14 +29,14 @@ class ShownGrains {
     // left_out: indices into scene.species. The grains of these species are treated as absent: they are not
     // lit, cast no shadow and are not counted in fields.
     ShownGrains(const FilmedScene& scene, const std::vector<std::size_t>& left_out);
-    // Leaves out all grains but these; ids rise.
+    // Leaves out all grains but these; ids rise. An empty list leaves out none.
     static ShownGrains only(const FilmedScene& scene, std::vector<std::int32_t> ids);
     // Leaves out the grains that the film's cut takes away whole.
     static ShownGrains beside_cut(const FilmedScene& scene);
 
     // The frame itself when nothing is left out, otherwise a copy that the next call overwrites.
     const Frame& of(const Frame& frame);
-    // Where a grain of the last of() was in the frame that was given.
+    // The index that a grain of the last of() has in the frame that was given to it.
     std::size_t place(std::size_t grain) const { return any() ? kept_[grain] : grain; }
 
   private:
@@ -58,9 +58,9 @@ class Quantities {
     // sees.
     void start_from(const Frame& frame);
 
-    // SI: the value of each grain, in the frame's order. It is NaN for a grain that was not there at the
-    // start, where the frame lacks what the quantity needs (displacements before a period has passed), and
-    // where grains are coloured by species.
+    // SI: the value of each grain, in the frame's order. It is NaN where it is not known: the start height of
+    // a grain that was not there at the start, and displacements before a period has passed. It is NaN for
+    // all grains if they are coloured by species.
     const std::vector<double>& of(const Frame& frame);
 
   private:
@@ -86,7 +86,7 @@ class GrainColours {
   public:
     explicit GrainColours(const FilmedScene& scene);
 
-    // See Quantities.
+    // See Quantities::start_from().
     void start_from(const Frame& frame) { quantities_.start_from(frame); }
 
     // The albedo of each grain, in the frame's order.
@@ -103,7 +103,7 @@ class GrainColours {
     double low_ = 0, high_ = 1;  // SI
     bool banded_ = false, logarithmic_ = false;
     ClippedCount clipped_;
-    std::vector<Albedo> steps_;  // one for each species, or for each step of the colour map or band
+    std::vector<Albedo> steps_;  // one for each species, each band or each step of the colour map
     std::vector<Albedo> colours_;
 };
 

@@ -119,7 +119,7 @@ void SpherePainter::add_glued(const View& view, const Frame& frame) {
     }
 }
 
-// Takes the planes of the cut, which go with the container, into view coordinates.
+// Takes the planes of the cut into view coordinates.
 void SpherePainter::open_bed(const View& view, const Frame& frame) {
     cut_.planes = 0;
     for (const HalfSpace& kept : kept_by_cut(look_.cut, frame))

@@ -47,7 +47,7 @@ class GluedSpheres {
 Lamp lamp_of(const FilmLook& look, bool colours_are_read);
 
 // Paints grains frame after frame. The renderer has one of these, and a second one if the film has ghosts:
-// grains that are seen through what stands in front of them.
+// grains through which the others are seen.
 class SpherePainter {
   public:
     // width, height: pixels of the part of the picture that shows the grains. If `ghosts` is true, it paints

@@ -62,8 +62,8 @@ void VelocityField::take(const Frame& frame) {
     fields_ = sums_.mean();
 }
 
-// The number of grains under the kernel is that in an area of 4 pi w^2 of the plane. This effective area is
-// the inverse of the integral of the kernel's square.
+// The kernel counts as covering an area of 4 pi w^2 of the plane, which is the inverse of the integral of its
+// square. The number of grains under the kernel is the number in this area.
 bool VelocityField::is_filled(std::size_t cell) const {
     if (std::isnan(fields_.velocity[0][cell])) return false;
     double grains = 0;  // grains in a cubic metre

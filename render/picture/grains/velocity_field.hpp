@@ -17,8 +17,8 @@ namespace grainreel {
 FieldOutput picture_fields(const FilmedScene& scene, double width, double finest);
 
 // The values of a frame that are coarse-grained: places relative to the container, and velocities in the lab.
-// period: displacements over a period take the place of velocities. Grains that were not there a period
-// before are then left out, and all grains while the frame has no displacements.
+// period: velocities are the displacements over the last period, divided by it. Grains that were not there a
+// period before are then left out. All grains are left out while the frame has no displacements.
 FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period);
 
 class VelocityField {
@@ -27,8 +27,8 @@ class VelocityField {
     VelocityField(const FilmedScene& scene, double width, bool period);
 
     void take(const Frame& frame);
-    // m/s, interpolated between cells; none where fewer than three grains lie under the kernel. y, z: m,
-    // relative to the container.
+    // m/s, interpolated between the cells that have at least three grains under the kernel; none where the
+    // other cells around the place have more than half of the weight. y, z: m, relative to the container.
     std::optional<Vec3> at(double y, double z) const;
 
   private:

@@ -19,13 +19,13 @@
 
 namespace grainreel {
 
-// A quantity of the grains as a coloured layer before them: its mean over the depth, weighted by mass. The
-// layer stands in the container's front face.
+// A quantity of the grains as a coloured layer in front of them: its mean over the depth, weighted by mass.
+// The layer stands in the container's front face.
 class FieldLayer {
   public:
     explicit FieldLayer(const FilmedScene& scene);
 
-    // See Renderer.
+    // See Renderer::start_from().
     void start_from(const Frame& frame) { quantities_.start_from(frame); }
     void draw(const View& view, const Frame& frame, Shapes& on);
     const ClippedCount& clipped() const { return clipped_; }  // counts cells

@@ -93,8 +93,8 @@ namespace {
 
 constexpr double usual_arrow = 0.25, longest_arrow = 0.5;  // shares of the container's width
 constexpr double grazing = 0.05;                           // sine of 3 degrees
-constexpr double packing = 0.55;
-constexpr double face_on = 0.7;  // cosine: walls beyond it face the eye, and forces on them point at the eye
+constexpr double packing = 0.55;  // solid fraction of the bed, from which its height is estimated
+constexpr double face_on = 0.7;   // cosine: walls beyond it face the eye, and forces on them point at the eye
 
 // The vector whose components are three columns of the last row; NaN where there is no such row or column.
 Vec3 last_vector(const Frame& frame, const std::string& name, const std::string& unit) {
@@ -128,8 +128,9 @@ double wall_force_scale(const FilmedScene& scene) {
     return usual_arrow * extent_of(scene).size().y() / scene.film.shows.wall_forces.scale;
 }
 
-// The moment M = r x F leaves the place along F open: r = F x M / F^2 + s F. The wall gives s: of a cylinder
-// |r + s F| = R in x and y, and the larger s, where the force presses outwards.
+// The moment M = r x F leaves the place along F open: r = F x M / F^2 + s F. The wall gives s. A plane has
+// one solution. In a cylinder the horizontal distance of r from the axis is R, and the larger of the two
+// solutions is taken, where the force presses outwards.
 std::optional<Vec3> point_of_action(const Face& wall, const Vec3& force, const Vec3& moment) {
     const bool round = wall.kind == Face::Kind::cylinder;
     const double across = round ? force.head<2>().norm() : force.dot(wall.normal);

@@ -58,8 +58,8 @@ void draw_point_forces(const View& view, const std::vector<PointForce>& forces, 
 // m: the length of a wall force's arrow for each N.
 double wall_force_scale(const FilmedScene& scene);
 
-// The point where the line of action of a force crosses a plane, or where it leaves a cylinder around the
-// z axis; none where the force runs along the wall within 3 degrees, or beside the cylinder. moment: N m,
+// The point where the line of action of a force crosses a plane, or where it leaves a cylinder whose axis is
+// along z; none where the force runs along the wall within 3 degrees, or passes the cylinder by. moment: N m,
 // about the origin.
 std::optional<Vec3> point_of_action(const Face& wall, const Vec3& force, const Vec3& moment);
 

@@ -65,7 +65,7 @@ std::vector<std::vector<Trails::Point>> Trails::paths() const {
 
 namespace {
 
-// As a share of the force at which a line has its full width. Weaker forces are left out.
+// Contacts whose force is a smaller share of widest_force() get no line.
 constexpr double weakest_force = 0.02;
 
 }  // namespace

@@ -61,11 +61,11 @@ class Marks {
   public:
     Marks(const FilmedScene& scene, const Palette& palette);
 
-    // See Renderer.
+    // See Renderer::start_from().
     void start_from(const Frame& frame);
     // Takes a frame that is not drawn but belongs to the trails.
     void remember(const Frame& frame);
-    // The share of a grain of the frame that is seen.
+    // Tells which share of a grain of the frame is seen.
     using SeenShare = std::function<double(std::size_t grain)>;
     // Adds the marks to the shapes that are painted after the grains. Frames come in the order of time.
     void draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on);

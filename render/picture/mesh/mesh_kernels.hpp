@@ -9,7 +9,7 @@
 namespace grainreel {
 
 // The places of a pixel's samples for solid triangles, from the middle of the pixel. They form a square
-// turned by 27 degrees, so that edges along rows and columns have five steps.
+// turned by 27 degrees, so that an edge along a row or a column covers 0, 1, 2, 3 or 4 samples of a pixel.
 constexpr int kMeshSamples = 4;
 constexpr float kSampleX[kMeshSamples] = {-0.125f, 0.375f, -0.375f, 0.125f};
 constexpr float kSampleY[kMeshSamples] = {-0.375f, -0.125f, 0.125f, 0.375f};
@@ -17,7 +17,7 @@ constexpr float kSampleY[kMeshSamples] = {-0.375f, -0.125f, 0.125f, 0.375f};
 // How near a point is: 1/z in perspective, -z with an orthographic camera. Both are linear in the picture.
 constexpr float kNowhereNear = -std::numeric_limits<float>::infinity();
 
-// A value that is linear in the picture: at + x (px - px0) + y (py - py0), but not outside low to high.
+// A value that is linear in the picture, at + x (px - px0) + y (py - py0), and is held between low and high.
 struct ScreenPlane {
     float at = 0, x = 0, y = 0;
     float low = 0, high = 0;
@@ -33,7 +33,7 @@ struct ScreenTriangle {
     Edge edge[3];
     float x = 0, y = 0;  // one corner: px0 and py0 of the planes
     ScreenPlane near, shade;
-    float colour[3], brighter[3];        // 0 to 255: colour at shade 0, and the rise to that at shade 1
+    float colour[3], brighter[3];        // 0 to 255: colour at shade 0, and what shade 1 adds to it
     float tint = 0;                      // thickness of glass, in panes seen straight on
     std::uint32_t number = 0;            // number of its plane in MeshProjection, from 1 on
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels that it may touch; high ends excluded
@@ -51,7 +51,7 @@ struct MeshRows {
 
 struct GlassRows {
     const float* away;  // m, z of what is seen behind the glass
-    float* thickness;   // panes of all glass before that
+    float* thickness;   // thickness of all glass in front of it, in panes
     std::size_t away_stride, stride;
     int first_row;
     bool orthographic;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr int kPad = 64;          // numbers after a row that kernels may write to
-constexpr float kApart = 3;       // pixels, of depth: a grain may be between samples that are farther apart
+constexpr float kApart = 3;       // pixels of depth; a grain may lie between samples that are farther apart
 constexpr float kOnThePlane = 1;  // pixels by which a line may lie behind a plane and still count as on it
 
 float depth_of(const Sight& sight, float near) {
@@ -35,7 +35,8 @@ std::uint32_t sum_of(std::uint32_t a, std::uint32_t b) {
     return sum;
 }
 
-// The colour of the rest of a pixel when the share taken/255 of it has been taken away.
+// The colour that the layer below must have so that `pixel` is seen of it when the layer above covers the
+// share taken/255.
 std::uint32_t in_the_rest(std::uint32_t pixel, std::uint32_t taken) {
     if (taken >= 255) return 0;
     std::uint32_t out = 0;
@@ -316,8 +317,8 @@ void MeshPainter::draw_rest_band(int band, const Job& job, Worker& worker) {
     }
 }
 
-// Splits a mixed pixel: the part that is nearer than the grain goes into the layer before the grains, and the
-// rest goes behind them.
+// Splits a mixed pixel: the part that is nearer than the grain goes into the layer in front of the grains,
+// and the rest goes behind them.
 void MeshPainter::split_mixed(const Mixed& pixel, const Visibility& seen, Worker& worker) {
     const float grain = grain_depth(seen, pixel.x, pixel.y);
     if (grain == kNothing || pixel.near_away >= grain) return;

@@ -3,9 +3,9 @@
 //
 // Solid triangles are drawn first, with four samples a pixel. Grains behind them are not drawn at all, since
 // Visibility takes the depth of the solid triangles. Where the outlines of a grain and of a solid triangle
-// meet, the share of the pixel that stands before the grain goes into the layer over the grains. Then glass
-// is thinly laid over whatever is behind it, and lines are drawn along edges where no solid plane is before
-// them. Threads work on bands of rows; the picture does not depend on the team's size.
+// meet, the share of the pixel that lies in front of the grain goes into the layer over the grains. Then
+// glass is thinly laid over whatever is behind it, and lines are drawn along edges where no solid plane is in
+// front of them. Threads work on bands of rows; the picture does not depend on the team's size.
 #pragma once
 
 #include <algorithm>
@@ -37,6 +37,7 @@ class MeshPainter {
     void draw_rest(const MeshProjection& meshes, const Sight& sight, const Visibility& seen, const Inks& inks,
                    Team& team);
 
+    // The layers under and over the grains.
     const Layer& behind() const { return behind_; }
     const Layer& before() const { return before_; }
 

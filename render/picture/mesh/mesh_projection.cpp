@@ -23,7 +23,7 @@ constexpr float kSolidLine = 0.85f, kGlassLine = 0.42f, kOutline = 0.7f;
 // over which it changes.
 constexpr float kFade = 0.14f;
 
-// A pane that is seen at a slant is thicker to the eye.
+// The thickness of a pane, in panes seen straight on. A pane that is seen at a slant is thicker to the eye.
 float panes_seen(float cosine) {
     const float slant = 1 - cosine;
     return 1 + 3 * slant * slant * slant;

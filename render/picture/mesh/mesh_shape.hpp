@@ -42,7 +42,8 @@ struct MeshShape {
 };
 
 // edge_angle: rad; an edge is a feature edge if its two triangles make a larger angle (0 is flat), and also
-// where the mesh ends or normals flip.
+// where the mesh ends or normals flip. Folds of a twisted surface, up and down from triangle to triangle, are
+// no feature edges.
 std::shared_ptr<const MeshShape> mesh_shape(const Surface& surface, double edge_angle, MeshLook look);
 
 // Numbers the patches of triangles that are connected across edges of at most `edge_angle`. Returns the

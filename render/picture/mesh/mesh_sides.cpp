@@ -27,7 +27,7 @@ constexpr double kDiffers = 0.3, kDiffersInVessel = 0.05;
 // A closed part is the sheet around a vessel's room, or a body in that room, when at least this share of it
 // borders on the room.
 constexpr double kHoldsRoom = 0.5, kInRoom = 0.9;
-constexpr double kShellShare = 0.15;  // share of the area of thick walls that looks into the room
+constexpr double kShellShare = 0.15;  // least share of the area of thick walls that looks into the room
 
 // Directions around z, weighted by the cosine, as a matt surface takes its light.
 std::array<Vec3, kRays> make_directions() {
@@ -241,7 +241,8 @@ class SideFinder {
         });
     }
 
-    // Whether straight ways through the wall come out in the room from most places of the patch.
+    // Whether straight ways through the wall come out in the room from at least half of the places of the
+    // patch.
     bool is_backed(std::size_t patch) const {
         const std::vector<std::int32_t>& all = members_[patch];
         const std::size_t places = std::min(all.size(), kPlacesOfPatch);

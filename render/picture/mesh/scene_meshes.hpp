@@ -17,8 +17,8 @@
 
 namespace grainreel {
 
-// How a mesh looks. film.walls decides; without it a mesh with grains in it is a vessel, and the shape
-// decides for all others.
+// How a mesh looks. film.walls decides. Without it, the container's mesh and a mesh around the place where
+// grains start are vessels, and the shape decides for all others.
 MeshLook look_of(const FilmedScene& scene, const SceneMesh& mesh);
 
 class SceneMeshes {

@@ -1,4 +1,4 @@
-// Makes triangles and lines in pixels of corners in view coordinates, and cuts them off where nothing is
+// Turns corners in view coordinates into triangles and lines in pixels, and cuts them off where nothing is
 // drawn. Hot code.
 #pragma once
 
@@ -17,8 +17,8 @@ struct LitCorner {
     float shade = 0;
 };
 
-// The part of space that is drawn: what lies in all these half-spaces x . p >= d. In perspective the first
-// half-space keeps what is before the eye; the others belong to a cut.
+// The part of space that is drawn: what lies in all these half-spaces normal . p >= distance. In perspective
+// the first half-space keeps what is in front of the eye; the others belong to a cut.
 struct DrawnSpace {
     struct Half {
         Eigen::Vector3f normal;

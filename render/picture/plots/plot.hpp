@@ -58,8 +58,8 @@ class Plot final : public SidePlot {
   public:
     Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette);
 
-    // Takes the rows of measures up to the frame's. Limits only grow, and depend on the rows alone. A row
-    // without a value (NaN) leaves a gap.
+    // Takes the first measure_rows rows of the frame's measures, as far as it has not taken them yet. Limits
+    // only grow, and depend on the rows alone. A row without a value (NaN) leaves a gap.
     bool take(const Frame& frame) override;
     std::optional<std::array<double, 2>> limits() const override {
         return any_ ? std::optional(limits_) : frame_.range;

@@ -1,7 +1,7 @@
 // Draws spheres into arrays of depth and number, pixel by pixel, and marks the pixels of a row where numbers
-// change. For those pixels, which lie on edges, it finds which grains share them, and how large their shares
-// are, in eighths: the lines of sight through eight points of the pixel are met with all grains that may be
-// seen in it. So silhouettes and lines of intersection are exact at these points.
+// change. These pixels lie on edges. For each of them it finds which grains share it and how large their
+// shares are, in eighths: lines of sight through eight points of the pixel are met with all grains that may
+// be seen in it. So silhouettes and lines of intersection are exact at these points.
 #if defined(GRAINREEL_SPHERES_DRAW_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_SPHERES_DRAW_INL
 #undef GRAINREEL_SPHERES_DRAW_INL
@@ -64,8 +64,8 @@ float farthest(const DepthRows& rows, const PixelBox& box) {
     return std::max(last, hn::GetLane(hn::MaxOfLanes(Floats(), most.value)));
 }
 
-// differs(at) gives lanes for the pixels from `at` on; pixels whose lane is not 0 are marked. Bits past the
-// end of the row are 0.
+// differs(d, at) gives a register with a lane for each pixel from `at` on; pixels whose lane is not 0 are
+// marked. Bits past the end of the row are 0.
 template <class Differs>
 HWY_INLINE void mark(int count, std::uint64_t* bits, const Differs& differs) {
     const hn::CappedTag<std::uint32_t, 16> d;

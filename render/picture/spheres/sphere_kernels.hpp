@@ -118,6 +118,7 @@ struct SphereKernels {
     void (*mark_changes)(const std::uint32_t* row, int count, std::uint64_t* bits);
     void (*mark_edges)(const std::uint32_t* row, const std::uint32_t* above, const std::uint32_t* below,
                        int count, std::uint64_t* bits);
+    // Computes the results of the block.
     void (*settle)(const Sight&, const Cut&, EdgeBlock&);
     void (*light)(const Sight&, const Cut&, const Lamp&, const LitGrain&, const LitPoints&);
 };

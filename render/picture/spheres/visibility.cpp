@@ -15,8 +15,8 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-// Where a sphere's silhouette begins and ends along one axis of the picture, as x/z. It ends at the tangents
-// from the eye, (c - s z)^2 = r^2 (1 + s^2) (after Mara & McGuire 2013). z must be larger than r.
+// Where a sphere's silhouette begins and ends along one axis of the picture, as s = x/z. These are the
+// tangents from the eye, (c - s z)^2 = r^2 (1 + s^2) (after Mara & McGuire 2013). z must be larger than r.
 struct Span {
     double low, high;
 };

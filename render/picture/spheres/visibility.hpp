@@ -1,5 +1,5 @@
-// Which grain is seen in the middle of each pixel, and which may be seen in a pixel on an edge. Grains are
-// exact spheres that the pixel's line of sight meets.
+// Finds which grain is seen in the middle of each pixel, and which may be seen in a pixel on an edge. Grains
+// are exact spheres that the pixel's line of sight meets.
 //
 // This runs on the processor's vector units and not in OpenGL. The depth of a sphere is known only pixel by
 // pixel, so a software rasteriser could not use its early depth test. docs/notes/rendering.md has the

@@ -1,8 +1,8 @@
 // Finds where walls and grains hide each other, pixel by pixel.
 //
-// Walls are painted as two flat layers, one behind all grains and one before them. This is right while every
-// grain is inside. Where a grain reaches through a wall or lies on its other side, WallOrder finds which
-// shares of a pixel have to be taken away from the grains and from the layer before them.
+// Walls are painted as two flat layers, one behind all grains and one in front of them. This is right while
+// every grain is inside. Where a grain reaches through a wall or lies on its other side, WallOrder finds
+// which shares of a pixel have to be taken away from the grains and from the layer in front of them.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,14 @@ namespace grainreel {
 struct WallFace {
     std::vector<Vec3> corners;  // m: corners of a flat convex piece, in order around it
     double opacity;             // 1 for a solid one
-    bool before;                // whether it is in the layer before the grains
+    bool before;                // whether it is in the layer in front of the grains
 };
 
 // A pixel in which the two layers are not right.
 struct WallPixel {
     int x, y;
     float hidden;  // share of the visible grains that walls hide
-    float bared;   // share of the walls before the grains that grains hide
+    float bared;   // share of the walls in front of the grains that grains hide
 };
 
 class WallOrder {
@@ -51,6 +51,8 @@ class WallOrder {
         double opacity;
         bool before;
 
+        // Whether a part of a grain may be on the wrong side: nearer to the eye than a face of the layer in
+        // front of the grains, or farther than a face of the layer behind them.
         bool disorders(const Vec3& centre, double radius) const;
         // A sphere around the part of a grain that is on the wrong side.
         ViewSphere wrong_part(const Vec3& centre, double radius) const;

@@ -46,8 +46,9 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
 
 namespace {
 
-constexpr std::uint32_t kMost =
-    0xffff;  // greatest linear light, and the number of moments that the sums have room for
+// The largest value of linear light, and the largest number of moments: their product fits in a sum of 32
+// bits.
+constexpr std::uint32_t kMost = 0xffff;
 
 // The linear light of each sRGB byte, 16 bits.
 const std::array<std::uint32_t, 256>& linear_of_byte() {
@@ -103,7 +104,7 @@ namespace {
 
 constexpr gl::TextureFormat bytes{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 
-// The pixels of a layer between the two corners.
+// The pixels of a layer between the corners (x0, y0) and (x1, y1).
 Rectangle on_layer(float x0, float y0, float x1, float y1, int width, int height) {
     const auto pixel = [](float at, int size) {
         return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(size)));

@@ -46,8 +46,8 @@ class Exposure {
   private:
     const Rectangle port_;
     std::uint32_t count_ = 0;
-    // A pixel is red, green and blue in linear light times alpha, with 16 bits each, then alpha with 8
-    // bits.
+    // Four sums for each pixel: red, green and blue (linear light of 16 bits, times alpha), then alpha (8
+    // bits).
     std::vector<std::uint32_t> sum_;
 };
 

@@ -105,9 +105,9 @@ struct Renderer::Impl {
     std::unique_ptr<gl::Context> context;
     ShapePainter shape_painter;
     SideLayer behind, before;
-    std::optional<SideLayer> marks_alone;  // used where grains hide parts of the walls before them
-    std::vector<std::pair<std::uint32_t*, std::uint32_t>>
-        covered;  // pixels of `before` and their colours before the change
+    std::optional<SideLayer> marks_alone;  // used where grains hide parts of the walls in front
+    // Pixels of `before` that draw_before() has changed, with the colours that they had.
+    std::vector<std::pair<std::uint32_t*, std::uint32_t>> covered;
     std::optional<Ground> ground;
     Team team;
     // The grains that are not hidden, the grains among them that are no ghosts, and the grains that have
@@ -175,7 +175,7 @@ void Renderer::Impl::start_from(const Frame& frame) {
     started = true;
 }
 
-// All grains but these become ghosts.
+// All grains but those of `what` become ghosts.
 void Renderer::Impl::point_out(PointedOut what) {
     point_forces = std::move(what.forces);
     if (what.grains.empty()) return;
@@ -261,7 +261,7 @@ void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, c
     watch.lap(&DrawTimes::readback);
 }
 
-// Draws the walls before the grains, without the parts that grains hide, and the marks over them. Where
+// Draws the walls in front of the grains, without the parts that grains hide, and the marks over them. Where
 // grains hide parts of the walls, the marks are a layer of their own, which is returned.
 const Layer* Renderer::Impl::draw_before() {
     const std::vector<WallPixel>& pixels = sphere_painter.wall_pixels();

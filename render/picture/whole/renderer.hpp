@@ -1,6 +1,7 @@
 // Makes a picture of a frame: the grains, the walls and the words around them. Everything in render/picture
 // is put together here; films and the library know only this header and few others. It includes nothing of
-// Cairo.
+// Cairo. A frame must give the same bytes for any number of threads, whatever was drawn before. tests/draw
+// compares pictures with those in tests/draw/golden.
 #pragma once
 
 #include <cstdint>

@@ -45,7 +45,7 @@ struct Writer {
 std::vector<std::string> lines_of(const std::string& text);
 
 // Each of these draws a block with its top left corner at (x, y), pixels, and returns its size. A block with
-// nothing to say has the size 0.
+// nothing to say has the size 0. wrap: pixels, the width at which lines break.
 TextSize title_block(const Writer& writer, const FilmedScene& scene, double x, double y, double wrap);
 // The legend has as many columns as `wrap` has room for; with wrap 0 it has one column of any width. room:
 // pixels of height; 0: no limit. Where there is no room for all species, the legend says how many more there

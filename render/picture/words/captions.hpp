@@ -27,7 +27,7 @@ double round_length(double longest);
 std::vector<std::string> drive_lines(const FilmedScene& scene, const Frame& frame);
 // Whether these lines differ from frame to frame.
 bool drive_lines_change(const Drive& drive);
-// The most lines, about as long as the longest, that drive_lines() gives in the course of the film.
+// As many lines as drive_lines() gives at most in the course of the film, each about as long as it gets.
 std::vector<std::string> longest_drive_lines(const FilmedScene& scene);
 // The place of a frame in the drive's period as it is shown: the phase in hundredths of a turn, never 1.00,
 // and the cycle that this phase belongs to.
@@ -36,7 +36,7 @@ struct ShownCycle {
     double phase;
 };
 ShownCycle shown_cycle(const Frame& frame);
-// The caption of time, which also says so while the grains still settle. Empty where the film does not show
+// The caption of time. While the grains still settle, it also says this. Empty where the film does not show
 // it.
 std::string playback_text(const Film& film, const Frame& frame, const std::string& playback);
 // What has flowed out, the scene's own words (film.text, with the latest values of measures), and the caption

@@ -101,8 +101,8 @@ void add_legend(Column& column, const Writer& writer, const Blocks& blocks, doub
         part.left_out.emplace_back("a part of the legend");
 }
 
-// The layout for an upright picture: the title; the legend beside scale and axes; the colour bar beside the
-// marks. Axes are left out first.
+// The layout above an upright picture, in three rows: the title; the legend beside scale and axes; the colour
+// bar beside the marks. If there is not enough room, the axes are left out first.
 FirstPart upright_part(const Writer& writer, const Blocks& blocks, double inner, double room) {
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};

@@ -26,6 +26,7 @@ namespace grainreel {
 namespace {
 
 // The formula of light_as() in light-inl.hpp, for a ball that is seen straight on and has nothing around it.
+// Change both together, or the legend has other colours than the grains.
 Colour lit(const Vec3& normal, const Colour& albedo) {
     const Lamp lamp;
     const Vec3 key(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]), eye(0, 0, -1);

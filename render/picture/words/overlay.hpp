@@ -24,7 +24,8 @@ class Overlay {
     Overlay(const FilmedScene& scene, const Palette& palette, const PictureLayout& layout, const View& view);
 
     // Writes the gutters into the picture: all of them the first time, then only what changes. Plates are
-    // only prepared here; lay_over() puts them into the picture. view: the view before it follows anything.
+    // only prepared here; lay_over() puts them into the picture. view: the view before the camera follows the
+    // container.
     void write(Picture& picture, const Frame& frame, const std::string& playback, const View& view);
     // Lays the plates, if there are any, over a picture that is drawn.
     void lay_over(Picture& picture) const;

@@ -13,13 +13,13 @@ namespace grainreel {
 
 namespace {
 
-constexpr double most_plot = 0.4, least_plot = 0.16, least_row = 0.16;  // heights, shares of the picture's
-constexpr double least_lines = 5;     // height of a plot, in heights of minor letters
-constexpr double least_letters = 11;  // width of a plot in a row, in heights of minor letters
-constexpr double most_plot_width = 0.24;
-constexpr double plot_width = 0.2;      // in a gutter at the side, as a share of the picture's width
-constexpr double note_width = 0.22;     // in a row, as a share of the gutter's width
-constexpr double caption_letters = 11;  // in a row, the caption's width in heights of minor letters
+constexpr double most_plot = 0.4, least_plot = 0.16, least_row = 0.16;  // of the picture's height
+constexpr double least_lines = 5;         // height of a plot, in heights of minor letters
+constexpr double least_letters = 11;      // width of a plot in a row, in heights of minor letters
+constexpr double most_plot_width = 0.24;  // of the picture's width
+constexpr double plot_width = 0.2;        // in a gutter at the side, as a share of the picture's width
+constexpr double note_width = 0.22;       // in a row, as a share of the gutter's width
+constexpr double caption_letters = 11;    // in a row, the caption's width in heights of minor letters
 
 Rectangle whole(double x, double y, double width, double height) {
     return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)};

@@ -40,7 +40,7 @@ Vec3 usual_up(const Scene& scene) {
     return -scene.gravity / gravity;
 }
 
-enum Place { of_position, of_frame, of_angles };  // the order of keys in the written scene
+enum Place { of_position, of_frame, of_angles };  // groups of keys, in the order in which they are written
 
 const KeyTable<Camera>& camera_table() {
     using C = Camera;

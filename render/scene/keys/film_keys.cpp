@@ -22,7 +22,7 @@ using namespace keys;
 
 constexpr std::int64_t least_pixels = 64, most_pixels = 8192;
 constexpr std::int64_t most_tiles = 12;  // columns or rows of a contact sheet
-constexpr int capped_quality = 18;       // crf, the best that a film gets which is kept below a size (a cap)
+constexpr int capped_quality = 18;       // crf, the default of a film that is kept below a size (a cap)
 
 // Whether a film in this format can be kept below a size.
 bool can_be_capped(FilmFormat format) {
@@ -69,7 +69,8 @@ void check_transparent(const Document& document, const Film& film) {
                         word_of(film.format, film_format_words)));
 }
 
-// A scene that names a size of its own keeps it, and a note tells this to a user who asked for a purpose.
+// A scene that sets size, rate or format keeps its own value, and a note tells this to a user who asked for a
+// purpose.
 void tell_what_stays(const Document& document, FilmedScene& scene) {
     const Purpose* purpose = find_purpose(scene.film.purpose);
     if (purpose == nullptr) return;
@@ -89,8 +90,8 @@ void tell_what_stays(const Document& document, FilmedScene& scene) {
                         document.place("film.for"), purpose->name, fmt::join(stays, ", ")));
 }
 
-// Refuses settings that do not go with the film's format, and fits the rate to it. Size, rate and file must
-// have been read.
+// Refuses settings that do not go with the film's format, and fits the rate to it. The keys of size, rate and
+// file must have been read before.
 void settle_film_file(const Document& document, FilmedScene& scene) {
     check_max_size(document, scene.film);
     check_transparent(document, scene.film);

@@ -31,8 +31,9 @@ void list_film_walls(keys::Keys& all);
 void read_film_walls(Document& document, FilmedScene& scene);
 void write_film_walls(SceneText& out, const FilmedScene& scene);
 
-// *_marks() are for the keys that hide and ring grains, write_text() for `text`. The functions *_shows() call
-// these and the functions of colours, plots, arrows and trails.
+// *_marks() are for the keys that hide and ring grains, write_text() for `text`. *_shows() are for colours,
+// plots, arrows and trails, and list_shows() also lists `text`. read_shows() reads all of these keys, marks
+// and text too.
 void list_marks(keys::Keys& all);
 void list_shows(keys::Keys& all);
 void read_shows(Document& document, FilmedScene& scene);
@@ -53,7 +54,7 @@ void read_arrows_and_trails(Document& document, FilmedScene& scene);
 void write_arrows_and_trails(SceneText& out, const FilmedScene& scene);
 
 void list_segments(keys::Keys& all);
-void read_segments(Document& document, FilmedScene& scene);  // after the rate
+void read_segments(Document& document, FilmedScene& scene);  // call it after the rate is read
 void write_segments(SceneText& out, const FilmedScene& scene);
 
 void list_labels(keys::Keys& all);
@@ -61,7 +62,7 @@ void read_labels(Document& document, FilmedScene& scene);
 void write_labels(SceneText& out, const FilmedScene& scene);
 
 void list_captions(keys::Keys& all);
-void read_captions(Document& document, FilmedScene& scene);  // after the run
+void read_captions(Document& document, FilmedScene& scene);  // call it after [run] is read
 void write_captions(SceneText& out, const FilmedScene& scene);
 
 // The key `show` of [film]: which words and signs stand beside the grains.
@@ -72,7 +73,7 @@ Colour read_colour(Document& document, const std::string& path, const char* exam
 
 // All of [film].
 void list_film(keys::Keys& all);
-void read_film(Document& document, FilmedScene& scene);  // after all tables of the engine
+void read_film(Document& document, FilmedScene& scene);  // call it after the tables of the engine
 void write_film(SceneText& out, const FilmedScene& scene);
 
 // From here on: keys whose values are lists of species by name or of grains by id (shows_keys.cpp).

@@ -217,7 +217,7 @@ void read_wall_force_scale(Document& document, const Scene& scene, const std::st
 
 void read_outflow(Document& document, const Scene& scene, const std::string& path, FilmShows& shows) {
     const bool leave = scene.container.outlet.has_value() && !scene.container.tray;
-    shows.outflow = leave;  // not for exits, which may be there for strays alone
+    shows.outflow = leave;  // not with exits alone, which may be there for strays
     keys::read_value(document, path, shows.outflow);
     const bool left_out = ends_early(document) && document.is_table("container.outlet");
     if (left_out && !scene.container.outlet) shows.outflow = false;

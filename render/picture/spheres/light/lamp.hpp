@@ -12,7 +12,7 @@ namespace grainreel {
 struct Lamp {
     float to_key[3] = {-0.4793f, 0.6590f, -0.5792f};  // unit, towards the key light
     float key = 0.78f;     // share of the albedo where the key light falls straight on
-    float spread = 0.05f;  // tangent of half the angle that it subtends: how soft shadows are
+    float spread = 0.05f;  // tangent of half the angle of the key light: how soft shadows are
     float sky = 0.62f;     // ambient light from above
     float ground = 0.34f;  // ambient light from below
     float even = 0;        // share of the albedo that is the same everywhere

@@ -59,7 +59,7 @@ HWY_INLINE F openness(const SurfacePoint& point, const NeighbourSpan& neighbours
         const F inverse = inverse_root(to.squared());
         // share: the square of the sine of the sphere's angular radius, seen from the point.
         const F share = smaller(F(n.square) * inverse * inverse, F(1));
-        const F sunk = rise * F(n.inverse_radius);  // -1 to 1: the sphere stands in the horizon
+        const F sunk = rise * F(n.inverse_radius);  // from -1 to 1 the horizon cuts the sphere
         const F whole = larger(rise, F(0)) * inverse * share;
         const F base = zero_to_one(F(0.5) * (sunk + F(1)) * share);
         const F part = base * base * inverse_root(larger(base, F(1e-12)));
@@ -89,6 +89,8 @@ HWY_INLINE F unshadowed(const SurfacePoint& point, const Lamp& lamp, const Neigh
     return lit;
 }
 
+// The balls of the legend have the same formula (lit() in render/picture/words/legend_block.cpp): change
+// both.
 template <bool orthographic>
 void light_as(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGrain& grain,
               const LitPoints& points) {

@@ -61,7 +61,8 @@ void LightGrid::fill(const std::vector<ViewSphere>& spheres, const Lamp& lamp, f
     set_axes(lamp);
     set_cells(spheres, reach);
     const std::size_t columns = static_cast<std::size_t>(cells_[0]) * cells_[1];
-    start_.assign(columns * cells_[2] + 2, 0);  // counted two places on, so that filling leaves the starts
+    // Counts are stored two places on, so that start_ holds the starts of the cells once item_ is filled.
+    start_.assign(columns * cells_[2] + 2, 0);
     for (const ViewSphere& s : spheres) for_cells(s, [&](std::size_t c) { ++start_[c + 2]; });
     for (std::size_t c = 2; c < start_.size(); ++c) start_[c] += start_[c - 1];
     item_.resize(start_.back());
@@ -90,8 +91,8 @@ NearGrain neighbour(const ViewSphere& own, const ViewSphere& other, float weight
 
 }  // namespace
 
-// How much light a neighbour takes. The weight falls from kFarther for grains that touch to 0 at the end of
-// their reach, so that no neighbour appears or vanishes suddenly.
+// How much light a neighbour takes. The weight is kFarther up to half of the neighbour's reach, and falls
+// from there to 0 at the end of the reach, so that no neighbour appears or vanishes suddenly.
 float Neighbourhood::weight(const ViewSphere& own, const ViewSphere& other) const {
     const float dx = other.x - own.x, dy = other.y - own.y, dz = other.z - own.z;
     const float gap = std::sqrt(dx * dx + dy * dy + dz * dz) - own.radius - other.radius;

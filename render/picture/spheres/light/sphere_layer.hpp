@@ -48,7 +48,7 @@ class BandPainter {
     };
     // The part of a pixel that one grain takes.
     struct Part {
-        std::uint32_t grain, pixel;  // index; place among `soft_`
+        std::uint32_t grain, pixel;  // indices of the grain and of the pixel in soft_
         float x, y, share;           // pixels
     };
     // A pixel put together from its parts.
@@ -76,8 +76,9 @@ class BandPainter {
     RowBits edges_;
     std::vector<Run> runs_, sorted_runs_;
     std::vector<Part> parts_, sorted_;
-    std::vector<std::uint32_t> count_,
-        met_;  // number of entries of each grain shown, kept at 0; grains met in this band
+    // count_: number of entries of each grain shown, 0 outside of for_each_grain(). met_: grains that have
+    // entries.
+    std::vector<std::uint32_t> count_, met_;
     std::vector<Soft> soft_;
     EdgeBlock block_;
     std::uint32_t block_who_[kCandidates][kPointBlock] = {};
