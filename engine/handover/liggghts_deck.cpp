@@ -73,7 +73,8 @@ class Deck {
         add_all({"units si", "atom_style granular", "atom_modify map array"});
         add("boundary {} f f", carried_.periodic ? "p" : "f");
         add_all({"newton off", "communicate single vel yes", processors_line(carried_)});
-        // In a run that continues, walls are read at their present places, and contacts with them begin anew.
+        // The restart file also has the places of the walls, but no histories of contacts with them. So in a
+        // run that continues, walls go on from where they were, and contacts with them begin anew.
         add("if \"${{goes_on}} == 0\" then \"read_data {}\" else \"read_restart ${{restart}}\"", data_name);
         add("neighbor {} bin", carried_.skin);
         add("neigh_modify delay 0 one 5000 page 200000");
@@ -108,8 +109,8 @@ class Deck {
         knows_time_ = true;
     }
 
-    // Adds the fixes of all walls and of the contacts with them. When the outlet opens, those of the walls
-    // before are removed first.
+    // Adds the fixes of all walls and of the contacts with them. When the outlet opens, the walls are
+    // replaced: the fixes that were added before are removed first.
     void set_up_walls(bool opened) {
         for (auto fix = wall_fixes_.rbegin(); fix != wall_fixes_.rend(); ++fix) add("unfix {}", *fix);
         wall_fixes_.clear();
@@ -117,7 +118,8 @@ class Deck {
         if (walls.empty()) return;
         std::string names;
         for (const TriangleWall& wall : walls) {
-            // A smooth surface may have triangles with a corner sharper than the angle between faces.
+            // LIGGGHTS refuses a mesh if a triangle has an angle smaller than `curvature`, unless it is told
+            // to tolerate this. Round surfaces may have such triangles.
             add("fix {} all mesh/surface file {} type {} curvature {}{}", wall.id, wall.file,
                 carried_.type_count() + wall.surface + 1, wall.curvature,
                 wall.curvature > 1e-4 ? " curvature_tolerant yes" : "");
@@ -230,7 +232,8 @@ class Deck {
         return {low, high};
     }
 
-    // Diameters (m) that are equally frequent: the middles of so many equal parts.
+    // Diameters (m), each as frequent as the others. The spread is divided into kSizesOfFeed parts with
+    // equally many grains, and the median of each part stands for it.
     static std::vector<double> sizes_of(const Species& species) {
         const SizeSpread& spread = species.diameter;
         if (spread.kind == SizeSpread::Kind::fixed || spread.smallest == spread.largest)
@@ -254,11 +257,12 @@ class Deck {
         const std::int64_t steps = carried_.last - carried_.first;
         add("thermo {}", std::max<std::int64_t>(1, steps / 100));
         add("thermo_style custom step atoms ke cpu");
-        // Grains may leave through an outlet. Grains that are lost otherwise are found when the dump is read.
+        // With an exit plane below an outlet, missing grains are no error for LIGGGHTS. If a grain was lost
+        // in another way, our reader of the dump throws (dump_tail.hpp).
         add("thermo_modify lost {} norm no", exit_plane(carried_).empty() ? "error" : "ignore");
     }
 
-    // A run that continues leaves out the commands `run` up to steps that it has passed.
+    // Runs until a step. A run that continues skips this command if it is past the step already.
     void run_up_to(std::int64_t step) {
         add("if \"$(step) < {}\" then \"run {} upto\"", there(step), there(step));
     }

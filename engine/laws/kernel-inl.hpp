@@ -66,8 +66,8 @@ LawParameters parameters_of(const std::vector<PairPlan>& plans) {
 
 template <class Law, class L>
 const LawKernel& kernel_of() {
-    // Two sets of registers at once need as many registers as AVX-512 has. (With floats, two sets were no
-    // faster than one.)
+    // Twice<L> takes two registers of contacts through the law side by side. That needs as many registers as
+    // AVX-512 has. (With floats it was no faster than L.)
     using Most = std::conditional_t<kLanes == 8 && L::count == 8, Twice<L>, L>;
     static const LawKernel kernel = [] {
         LawKernel k;

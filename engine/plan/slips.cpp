@@ -204,7 +204,7 @@ std::vector<std::string> likely_slips(const Scene& scene) {
 
 namespace {
 
-constexpr double alarming_share = 4;  // overlaps are then twice as large as wanted
+constexpr double alarming_share = 4;  // overlaps are then 2 times as large as wanted, with Hertz 1.7 times
 
 struct Wanted {
     double share = 0;  // wanted stiffness divided by the stiffness there is

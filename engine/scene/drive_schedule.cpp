@@ -12,8 +12,9 @@ namespace {
 
 using Kind = DriveStage::Kind;
 
-constexpr double hair = 1e-6;  // in periods: a stage that comes later than the start of a period by less than
-                               // this begins with that period
+// In periods. If a stage's `from` is later than the start of a period by less than this, the stage still
+// begins with that period.
+constexpr double hair = 1e-6;
 constexpr int looks_at_change = 256;
 
 double acceleration_of(double amplitude, double frequency) {
@@ -127,7 +128,8 @@ DriveSchedule::Now drive_now(const Drive& drive, double cycles) {
 
 DrivePeaks drive_peaks(const Drive& drive) {
     const double omega = 2 * std::numbers::pi * drive.frequency;
-    // Without a ramp the sine may begin anywhere, and the container begins in its place at rest.
+    // Without a ramp the sine may begin at any phase. The offset counts from where the container is then, so
+    // it can be larger than the amplitude.
     const double farthest = 1 + (drive.ramp > 0 ? 0 : std::abs(std::sin(2 * std::numbers::pi * drive.phase)));
     DrivePeaks peaks{drive.frequency, farthest * drive.amplitude, drive.speed(),
                      drive.amplitude * omega * omega};

@@ -2,11 +2,11 @@
 // grain's reach, however the surface is cut into triangles.
 //
 // A triangle touches when its nearest point is closer to the grain's centre than the radius. Touching
-// triangles belong to one patch if they meet in their nearest point, or in an edge that is flat, smooth or
-// convex as seen from the centre. The patch is touched at its nearest point, if that is a local minimum of
-// the distance to the surface. On a face it always is; on an edge or corner it is one if no triangle that
-// meets there is nearer. So a ball in a groove has two contacts, and a ball on one wall of the groove does
-// not touch the groove's edge.
+// triangles belong to one patch if they meet in their nearest point, or in an edge that is flat, smooth (the
+// planes differ by less than kSmoothAngle) or convex as seen from the centre. The patch is touched at its
+// nearest point, if the distance to the surface has a local minimum there. On a face it always has one. On an
+// edge or a corner it has one if no triangle at this edge or corner is nearer to the centre. So a ball in a
+// groove has two contacts, and a ball on one wall of the groove does not touch the groove's edge.
 //
 // All values are in the body's frame and in doubles. The answer does not depend on the order of the
 // triangles.
@@ -41,9 +41,11 @@ class Patches {
     int holder_of(std::int32_t triangle) const;
 
   private:
+    // Triangles that are joined make a group. A group becomes a patch if its nearest point is a local
+    // minimum.
     struct Touching {
         std::int32_t triangle;
-        int group;     // another triangle of its group, or itself
+        int group;     // place in touching_: of another member of its group, or its own
         double plane;  // m, of the centre from the triangle's plane, positive on the normal's side
         NearestPoint nearest;
         int patch = -1;
@@ -62,8 +64,8 @@ class Patches {
     Vec3 centre_{0, 0, 0};
     double squared_reach_ = 0;        // m2
     std::vector<Touching> touching_;  // by rising triangle, once they are found
-    std::vector<int> best_;      // nearest triangle of each group, at the place of the group's first member
-    std::vector<double> least_;  // m2, least squared distance of each group, at the same place
+    std::vector<int> best_;  // place of each group's nearest member; it stands where the first member does
+    std::vector<double> least_;  // m2, least squared distance of each group; it stands there too
     std::vector<Patch> patches_;
 };
 

@@ -89,7 +89,9 @@ struct Material {
 };
 
 // Rows for impacts of two equal spheres. Slips are divided by the normal speed before the impact. The
-// published value is the larger of those for sliding and for sticking.
+// published value is no measured point: it is the slip that Foerster's model gives with their e, mu and
+// beta0. The model has one line for contacts that slide and one for contacts that stick, and the larger value
+// counts.
 std::string binary_rows(const Material& m, const NamedLaw& named, double step) {
     std::string rows;
     const double sliding = 3.5 * (1 + m.e) * m.mu;
