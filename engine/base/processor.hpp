@@ -1,5 +1,6 @@
 // What the step loop asks of the processor: large pages of memory, prefetching, no denormal numbers, and its
-// clock. Only speed depends on these, never a result. Keep this header light: hot code includes it.
+// clock. They are there for speed, and only one of them touches results: denormal numbers count as zero.
+// Keep this header light: hot code includes it.
 #pragma once
 
 #include <xmmintrin.h>

@@ -1,13 +1,14 @@
 // Whether a measured column is steady: where its transient ends, and whether it drifts after that.
 //
-// There are two questions with one test each. MSER-m finds where the transient ends: it drops as many batches
-// at the front as make the squared standard error of the mean of the rest least (White, Simulation 69, 1997;
-// White, Cobb and Spratt, Proc. Winter Simulation Conf., 2000). It needs no parameter and is hard to mislead.
-// The Mann-Kendall test decides whether the rest drifts (Mann, Econometrica 13, 1945; Kendall, Rank
-// Correlation Methods, 1975). It looks for a trend of any shape and assumes no distribution. The size of the
-// drift is the slope of Sen (J. Am. Stat. Assoc. 63, 1968). The test assumes independent values, so it gets
-// means of long batches. Geweke's test (1992) would answer both questions with one number, but it needs
-// spectral estimates that short series do not give.
+// There are two questions with one test each. Both see means of batches, and a batch is m rows in
+// succession. MSER-m (marginal standard error rule) finds where the transient ends. It drops batches at the
+// front. Their number is the one for which the mean of the rest has the least standard error (White,
+// Simulation 69, 1997; White, Cobb and Spratt, Proc. Winter Simulation Conf., 2000). It needs no parameter
+// and is hard to mislead. The Mann-Kendall test decides whether the rest drifts (Mann, Econometrica 13, 1945;
+// Kendall, Rank Correlation Methods, 1975). It looks for a trend of any shape and assumes no distribution.
+// The size of the drift is the slope of Sen (J. Am. Stat. Assoc. 63, 1968). The test assumes independent
+// values, so it gets means of long batches. Geweke's test (1992) would answer both questions with one number,
+// but it needs spectral estimates that short series do not give.
 #pragma once
 
 #include <cstddef>
@@ -34,8 +35,9 @@ struct Steadiness {
     std::size_t tested = 0;   // number of means in the test of drift
     // Mean after the transient, and half the width of its 95 % interval (Student's t of the tested means).
     double mean = std::numeric_limits<double>::quiet_NaN(), half_width = mean;
-    double slope = mean;          // Sen's slope, the value's unit per s
-    double tau = mean, p = mean;  // Kendall's tau; probability of a tau at least as large without a trend
+    double slope = mean;  // Sen's slope, the value's unit per s
+    // Kendall's tau, and the probability of this |tau| or a larger one if there is no trend.
+    double tau = mean, p = mean;
 };
 
 // `times` (s) rise, and there are as many `values`; rows whose value is not finite are left out. `period`

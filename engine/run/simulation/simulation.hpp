@@ -21,7 +21,7 @@ namespace grainreel {
 
 // A contact with all data that a question about the forces on a grain needs.
 struct ContactForce {
-    std::int32_t first, second;  // ids; second is -1 - face for a wall
+    std::int32_t first, second;  // ids; second is -1 - w for wall w, where the faces come before the meshes
     Vec3 normal;                 // unit, from first to second
     double overlap;              // m
     double normal_force;         // N, on second along the normal; below 0 where the law attracts
@@ -60,7 +60,7 @@ struct PackingResult {
     bool settled = true;           // false when the time limit ended settling
     double settle_time = 0;        // s, simulated
     double kinetic_per_grain = 0;  // J, at the end
-    double solid_fraction = 0;     // share of the volume below the height under which 95 % of the centres lie
+    double solid_fraction = 0;     // below the bed's top, that is, where 95 % of the centres lie
 };
 
 // Throws UserError, as a run would, where the grains of a file or a list do not fit the scene.
@@ -68,13 +68,14 @@ void check_start(const Scene& scene, const Plan& plan);
 
 class Simulation {
   public:
-    // With `threads` = 0 the machine decides. Takes the grains of a file or a list, and throws UserError if
-    // they do not fit the scene.
+    // With `threads` = 0 there is one thread for each processor that this process may use. Takes the grains
+    // of a file or a list, and throws UserError if they do not fit the scene.
     Simulation(const Scene& scene, const Plan& plan, int threads);
     // The run of the scene at a checkpoint, which may be its last step. This replaces the scene's own start
     // and pack(). Throws UserError if the checkpoint cannot be used or belongs to another run. With
-    // `may_change`, the scene may differ from then on, which the caller has checked. With `replays`, the run
-    // has orientations if the checkpoint has them, whatever the scene says.
+    // `may_change`, the scene may differ from the scene of the checkpoint. The caller must then have checked
+    // that the run can go on with it. `replays` is for computing moments of a run once more: the run then has
+    // orientations if the checkpoint has them, whatever the scene says.
     static Simulation at_checkpoint(const Scene& scene, const Plan& plan,
                                     const std::filesystem::path& checkpoint, int threads,
                                     bool may_change = false, bool replays = false);
@@ -89,13 +90,15 @@ class Simulation {
     Simulation& operator=(Simulation&&) noexcept;
 
     // Places the grains (layers and radius growth, or rain, then settling), if they are not placed yet.
-    // Afterwards step() is 0, or the file's step when the scene keeps its clock.
+    // Afterwards step() is 0. If the scene goes on from a checkpoint (start.keep_clock), it is that step.
     PackingResult pack(const PackingWatcher& watcher);
     PackingResult pack();
     // Everything that decides the result of pack(), as text. Two scenes with the same key have the same
-    // packing to the bit, in this program on this processor. Empty if nothing is packed, or if a caller's law
-    // acts. The keys of film, output and duration are not in it. The drive's keys are in it if radii grow,
-    // because the walls already move then. Otherwise it says only whether there is a drive and what it moves.
+    // packing to the bit, in this program on this processor. Empty if nothing is packed, or if a contact law
+    // acts that a user of the library has written. The text leaves out what the scene says of film, output
+    // and duration. It has all that the scene says of the drive if radii grow, because the walls already move
+    // while they grow. Otherwise it has only whether there is a drive, what this moves, and the offset and
+    // velocity of what it moves at step 0.
     std::string packing_key() const;
     // Writes the file for with_packing(). Call it after pack(), before any step. Throws RunError if it cannot
     // be written.
@@ -127,7 +130,7 @@ class Simulation {
     std::vector<FieldValues> fields() const;
     std::uint64_t state_hash() const;  // hash of every bit that decides the future
 
-    // Contacts that carry force now, for contacts.nc; by rising `first`, then `second`.
+    // Contacts whose normal force is above 0 now, for contacts.nc; by rising `first`, then `second`.
     using SavedContact = grainreel::SavedContact;
     std::vector<SavedContact> contacts() const;
     // All contacts that touch now, with their forces on the grains, in the same order.

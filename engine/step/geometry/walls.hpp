@@ -14,7 +14,7 @@ namespace grainreel {
 struct alignas(64) FaceRecord {
     Vec3 normal;    // unit, into the container; zero for a cylinder
     double level;   // m, normal . point
-    Vec3 axis;      // m, a point on a cylinder's axis
+    Vec3 axis;      // m, a point on a cylinder's axis; for a plane, Face::point, about which its gap lies
     double radius;  // m, of a cylinder; 0 for a plane
 };
 
@@ -22,8 +22,9 @@ struct alignas(64) FaceRecord {
 struct alignas(64) FaceEnd {
     Vec3 along;    // unit, as Face::along; zero without an edge
     double level;  // m, along . a point of the edge
-    double out_x,
-        out_y;         // 1 if this coordinate counts for the distance from the axis or from the gap, else 0
+    // A cylinder and a gap need the distance from FaceRecord::axis. Each of these is 1 if x or y is part of
+    // that distance, else 0: both for a cylinder and a round hole, only y for a slot along x.
+    double out_x, out_y;
     double gap;        // m
     double two_sided;  // 1 for a face that ends
 };
@@ -37,7 +38,8 @@ struct alignas(64) FaceMotion {
     double unused_two;
 };
 
-// The point about which a face's moment counts, in m, at rest. It stays where it is while the body turns.
+// The point (m, at rest) about which the moment of the forces on a face is taken. If the body turns, this
+// point lies on the axis, so the turn does not move it.
 inline Vec3 moment_point(const Face& face) {
     return face.body.turn ? face.body.turn->through : face.point;
 }
@@ -49,7 +51,7 @@ struct WallPose {
     Vec3 moved{0, 0, 0};          // m/s, mean velocity of the body's origin
     Eigen::Matrix3d rate;         // 1/s, mean rate of change of `turned`
     Vec3 spin{0, 0, 0};           // rad/s, mean over the step
-    Vec3 point{0, 0, 0};          // m, now, about which the moment counts; on the axis for a face that turns
+    Vec3 point{0, 0, 0};          // m, now; moments are taken about it; on the axis for a face that turns
     Vec3 point_before{0, 0, 0};   // m, point of the face a step ago
     Vec3 normal_before{0, 0, 0};  // normal of the face a step ago
     bool slides =

@@ -3,7 +3,9 @@
 namespace grainreel {
 
 Evaluation Evaluations::now() const {
-    double share = 0, all = 0, before = 0;  // drifts of the step, in steps
+    // Sums of this step's drifts, as shares of a step: up to the forces of this stage, up to the step's last
+    // forces, and up to the forces before those of this stage.
+    double share = 0, all = 0, before = 0;
     for (std::size_t s = 0; s < scheme_.stages.size(); ++s) {
         if (s < stage_) before += scheme_.stages[s].drift;
         if (s <= stage_) share += scheme_.stages[s].drift;
@@ -13,8 +15,8 @@ Evaluation Evaluations::now() const {
     at.time = static_cast<double>(step_number_) + share;
     at.acts = step_ * scheme_.acts(stage_);
     at.now = motion_.at(step_number_, share);
-    const bool goes_on =
-        stage_ == 0 && step_number_ != first_step_;  // whether the last forces belong to another step
+    // Whether the forces before those of this stage belong to the previous step.
+    const bool goes_on = stage_ == 0 && step_number_ != first_step_;
     at.before = goes_on ? motion_.at(step_number_ - 1, all) : motion_.at(step_number_, before);
     at.since = step_ * (scheme_.stages[stage_].drift + (goes_on ? scheme_.closing_drift : 0));
     return at;

@@ -30,8 +30,8 @@ struct NamedScene {
 // there are none.
 std::string differences_html(const std::vector<NamedScene>& scenes);
 
-// The keys and values of a resolved scene as text: "drive.frequency" -> "20", "species.2.count" -> "10" for
-// the second species.
+// The keys and values in the text of a run's scene.toml: "drive.frequency" -> "20", "species.2.count" -> "10"
+// for the second species.
 std::map<std::string, std::string> keys_of_scene(std::string_view text);
 
 }  // namespace grainreel

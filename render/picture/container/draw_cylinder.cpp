@@ -30,8 +30,8 @@ std::vector<Vec3> circle(double radius, double z) {
     return points;
 }
 
-// rad: the eye's angle about z, and the angle to both sides of it over which the eye sees the tube. The tube
-// is seen up to where lines of sight touch it (cos = R / distance).
+// Two angles about z, in rad. The first is the direction of the eye. The second says how far the eye sees the
+// tube to each side of that direction: up to where lines of sight touch it (cos = R / distance).
 std::pair<double, double> visible_part(double radius, const Sketch& sketch) {
     const Vec3 to_eye = sketch.to_eye();
     const double distance = std::hypot(to_eye.x(), to_eye.y());
