@@ -2,11 +2,15 @@
 // runs is (engine/measure/health.hpp), with the same limits and words. Contacts are found from places.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "engine/frame.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/grains.hpp"
 
 namespace grainreel {
 
@@ -25,5 +29,12 @@ class ReturnedHealth {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+// Finds the grains that overlap, from their places alone: for frames of other engines, which have no lists.
+
+// Calls see() once for each pair that overlaps, with their indices and the overlap (m). period: of x in m; 0
+// for none. Places may lie beyond the period. The order of the pairs follows from the places.
+void for_overlapping(const std::vector<Place>& places, double period,
+                     const std::function<void(std::int32_t, std::int32_t, double)>& see);
 
 }  // namespace grainreel
