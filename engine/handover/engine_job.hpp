@@ -10,6 +10,7 @@
 
 #include "engine/handover/carried_scene.hpp"
 #include "engine/handover/guarded_process.hpp"
+#include "engine/handover/handover_folder.hpp"
 
 namespace grainreel {
 
@@ -72,5 +73,24 @@ class EngineJob {
     std::filesystem::path folder_;
     std::unique_ptr<GuardedProcess> process_;
 };
+
+// How the job of a hand-over ended, according to the files that it left in its folder.
+
+// run.sh writes the exit status of mpirun into this file once it has ended.
+inline constexpr const char* status_name = "job.status";
+std::string log_name(
+    PeerEngine engine);  // "log.lammps", the engine's own log, which also shows the command that failed
+std::string output_name(PeerEngine engine);  // "out.lammps"
+
+struct JobEnd {
+    bool ended = false;   // known to have ended; stays false if run.sh itself was killed
+    std::string failure;  // what went wrong, one line; empty if no failure is known
+};
+JobEnd job_end(const std::filesystem::path& folder, const HandoverFacts& facts);
+
+// "LAMMPS has come to 0.1 s of 0.3 s; what there is is shown", with why it ended if that is known. until:
+// s, simulated so far. wanted: s, simulated in all.
+std::string came_so_far(const std::filesystem::path& folder, const HandoverFacts& facts, double until,
+                        double wanted);
 
 }  // namespace grainreel

@@ -12,7 +12,7 @@
 
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/decks.hpp"
-#include "engine/handover/job_end.hpp"
+#include "engine/handover/engine_job.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
 
