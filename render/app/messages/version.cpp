@@ -23,7 +23,6 @@ extern "C" {
 
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/vector/instructions.hpp"
-#include "render/app/messages/build_info.hpp"
 
 namespace grainreel {
 
