@@ -14,6 +14,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
+#include "engine/base/text.hpp"
 #include "engine/handover/decks.hpp"
 
 namespace grainreel {
@@ -30,15 +31,9 @@ Known known(PeerEngine engine) {
     return engine == PeerEngine::lammps ? Known{"lmp", "lammps"} : Known{"liggghts", "liggghts"};
 }
 
-std::string quoted_for_shell(const std::string& word) {
-    std::string out = "'";
-    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
-}
-
 // The first lines that a program prints.
 std::string said_by(const fs::path& program, const std::string& option) {
-    const std::string command = quoted_for_shell(program.string()) + " " + option + " </dev/null 2>/dev/null";
+    const std::string command = shell_word(program.string()) + " " + option + " </dev/null 2>/dev/null";
     const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
     if (!pipe) return "";
     std::array<char, 2000> text{};
@@ -132,8 +127,6 @@ RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std:
     return all;
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 constexpr std::size_t kLongest = 400;  // most characters of a line that are quoted
@@ -163,6 +156,20 @@ bool is_error(const std::string& line) {
 
 std::string cut(const std::string& text) {
     return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+bool says(const fs::path& file, const std::string& words) {
+    std::ifstream said(file);
+    for (std::string line; std::getline(said, line);)
+        if (line.find(words) != std::string::npos) return true;
+    return false;
+}
+
+// How an engine ended that gave this exit status, and said nothing of it in `output`.
+std::string ended_with(PeerEngine engine, int status, const fs::path& output) {
+    const std::string how = status > 128 ? fmt::format("was ended by signal {}", status - 128)
+                                         : fmt::format("ended with exit status {}", status);
+    return fmt::format("{} {}; its output is in {}", name_of(engine), how, output.string());
 }
 
 }  // namespace
@@ -218,14 +225,8 @@ std::string EngineJob::failure() {
     if (!said.empty()) return fmt::format("{} ended: {}", name_of(engine_), said);
     const int status = process_->status().value_or(0);
     if (status == 0) return "";
-    if (status > 128)
-        return fmt::format("{} was ended by signal {}; its output is in {}", name_of(engine_), status - 128,
-                           (folder_ / kOutput).string());
-    return fmt::format("{} ended with exit status {}; its output is in {}", name_of(engine_), status,
-                       (folder_ / kOutput).string());
+    return ended_with(engine_, status, folder_ / kOutput);
 }
-
-namespace fs = std::filesystem;
 
 std::string log_name(PeerEngine engine) {
     return fmt::format("log.{}", key_of(engine));
@@ -234,17 +235,6 @@ std::string log_name(PeerEngine engine) {
 std::string output_name(PeerEngine engine) {
     return fmt::format("out.{}", key_of(engine));
 }
-
-namespace {
-
-bool says(const fs::path& file, const std::string& words) {
-    std::ifstream said(file);
-    for (std::string line; std::getline(said, line);)
-        if (line.find(words) != std::string::npos) return true;
-    return false;
-}
-
-}  // namespace
 
 JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
     JobEnd end;
@@ -263,9 +253,7 @@ JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
         end.failure = fmt::format("{} was asked to end by a signal", name_of(facts.engine));
         return end;
     }
-    end.failure = status > 128 ? fmt::format("{} was ended by signal {}", name_of(facts.engine), status - 128)
-                               : fmt::format("{} ended with exit status {}", name_of(facts.engine), status);
-    end.failure += fmt::format("; its output is in {}", (folder / output_name(facts.engine)).string());
+    end.failure = ended_with(facts.engine, status, folder / output_name(facts.engine));
     return end;
 }
 

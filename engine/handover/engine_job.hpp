@@ -1,5 +1,6 @@
 // Runs another engine on this machine: finds its program and version, starts it with a deck, and explains its
-// error messages. The process itself is in guarded_process.hpp.
+// error messages. Also says how a job ended that somebody else ran by the run.sh of its folder. The process
+// itself is in guarded_process.hpp.
 #pragma once
 
 #include <filesystem>
@@ -44,7 +45,6 @@ RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std:
 std::string engine_error(const std::filesystem::path& output, const std::filesystem::path& deck);
 
 // An engine that runs the deck in a folder.
-
 class EngineJob {
   public:
     // restart: a file in the deck's folder from which the engine continues; empty: it starts from the
@@ -74,12 +74,12 @@ class EngineJob {
     std::unique_ptr<GuardedProcess> process_;
 };
 
-// How the job of a hand-over ended, according to the files that it left in its folder.
+// From here on: the job of a hand-over, which run.sh starts. What is known of it are the files in its folder.
 
 // run.sh writes the exit status of mpirun into this file once it has ended.
 inline constexpr const char* status_name = "job.status";
-std::string log_name(
-    PeerEngine engine);  // "log.lammps", the engine's own log, which also shows the command that failed
+// "log.lammps", the engine's own log, which also shows the command that failed.
+std::string log_name(PeerEngine engine);
 std::string output_name(PeerEngine engine);  // "out.lammps"
 
 struct JobEnd {

@@ -30,10 +30,9 @@ class ReturnedHealth {
     std::unique_ptr<Impl> impl_;
 };
 
-// Finds the grains that overlap, from their places alone: for frames of other engines, which have no lists.
-
-// Calls see() once for each pair that overlaps, with their indices and the overlap (m). period: of x in m; 0
-// for none. Places may lie beyond the period. The order of the pairs follows from the places.
+// Finds the grains that overlap from their places alone, because frames of other engines have no lists. Calls
+// see() once for each pair, with their indices and the overlap (m). period: of x in m; 0 for none. Places may
+// lie beyond the period. The order of the pairs follows from the places.
 void for_overlapping(const std::vector<Place>& places, double period,
                      const std::function<void(std::int32_t, std::int32_t, double)>& see);
 

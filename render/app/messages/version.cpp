@@ -84,9 +84,6 @@ std::string version_text() {
     return text;
 }
 
-}  // namespace grainreel
-namespace grainreel {
-
 ProgramInfo program_info() {
     return {build_info::version, build_info::commit, build_info::compiler, build_info::flags,
             library_versions()};
