@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/base/word_reader.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 namespace {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 namespace {

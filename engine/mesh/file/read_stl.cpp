@@ -9,9 +9,9 @@
 
 #include "engine/base/text.hpp"
 #include "engine/base/vector.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/mesh/file/words.hpp"
+#include "engine/base/word_reader.hpp"
 
 #include <fmt/format.h>
 
