@@ -9,19 +9,15 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 
 namespace grainreel {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_of_a_path = 400;  // characters of a path in a message
 constexpr std::string_view shipped_prefix = "shipped:";
 constexpr const char* what_to_give = "give the path of an STL, OBJ or PLY file";
-
-std::string shown(const fs::path& file) {
-    return excerpt(file.string(), most_of_a_path);
-}
 
 void check_kind(const fs::path& file) {
     std::error_code ignored;
@@ -29,16 +25,16 @@ void check_kind(const fs::path& file) {
         case fs::file_type::regular:
             return;
         case fs::file_type::directory:
-            refuse_mesh(file, fmt::format("this is a folder; {}", what_to_give));
+            refuse_file(file, fmt::format("this is a folder; {}", what_to_give));
         case fs::file_type::not_found:
-            refuse_mesh(file, fmt::format("there is no such file; {}", what_to_give));
+            refuse_file(file, fmt::format("there is no such file; {}", what_to_give));
         case fs::file_type::fifo:
-            refuse_mesh(file, "this is a pipe; give the path of an ordinary file");
+            refuse_file(file, "this is a pipe; give the path of an ordinary file");
         case fs::file_type::none:
         case fs::file_type::unknown:
-            refuse_mesh(file, "cannot be read; check its permissions");
+            refuse_file(file, "cannot be read; check its permissions");
         default:
-            refuse_mesh(file, fmt::format("this is a device; {}", what_to_give));
+            refuse_file(file, fmt::format("this is a device; {}", what_to_give));
     }
 }
 
@@ -57,32 +53,20 @@ std::string mesh_bytes(const fs::path& file) {
     const Open open{::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
     struct stat about {};
     if (open.file < 0 || ::fstat(open.file, &about) != 0 || !S_ISREG(about.st_mode))
-        refuse_mesh(file, "cannot be read; check its permissions");
+        refuse_file(file, "cannot be read; check its permissions");
     const auto size = static_cast<std::uint64_t>(about.st_size);
-    if (size == 0) refuse_mesh(file, fmt::format("is empty; {}", what_to_give));
-    if (size > largest_mesh_file) refuse_mesh(file, "is larger than 2 GiB; give a mesh of fewer triangles");
+    if (size == 0) refuse_file(file, fmt::format("is empty; {}", what_to_give));
+    if (size > largest_mesh_file) refuse_file(file, "is larger than 2 GiB; give a mesh of fewer triangles");
     std::string bytes(size, '\0');
     std::size_t done = 0;
     while (done < bytes.size()) {
         const ssize_t got = ::read(open.file, bytes.data() + done, bytes.size() - done);
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) refuse_mesh(file, "cannot be read; check its permissions");
-        if (got == 0) refuse_mesh(file, "became shorter while it was read; try again when it is whole");
+        if (got < 0) refuse_file(file, "cannot be read; check its permissions");
+        if (got == 0) refuse_file(file, "became shorter while it was read; try again when it is whole");
         done += static_cast<std::size_t>(got);
     }
     return bytes;
-}
-
-void refuse_mesh(const fs::path& file, const std::string& what) {
-    throw UserError(fmt::format("{}: {}", shown(file), what));
-}
-
-void refuse_line(const fs::path& file, std::int64_t line, const std::string& what) {
-    throw UserError(fmt::format("{}:{}: {}", shown(file), line, what));
-}
-
-void refuse_byte(const fs::path& file, std::size_t byte, const std::string& what) {
-    throw UserError(fmt::format("{}: byte {}: {}", shown(file), byte, what));
 }
 
 bool is_shipped_mesh(const std::filesystem::path& file) {

@@ -18,11 +18,6 @@ inline constexpr std::uint64_t largest_mesh_file = (std::uint64_t{1} << 31) - 1;
 // cannot be read, is empty or larger than 2 GiB, or is a folder, a pipe or a device.
 std::string mesh_bytes(const std::filesystem::path& file);
 
-// These throw UserError with the text "file: what", "file:line: what" or "file: byte 84: what".
-[[noreturn]] void refuse_mesh(const std::filesystem::path& file, const std::string& what);
-[[noreturn]] void refuse_line(const std::filesystem::path& file, std::int64_t line, const std::string& what);
-[[noreturn]] void refuse_byte(const std::filesystem::path& file, std::size_t byte, const std::string& what);
-
 // A mesh of scenes/meshes. The build puts these files into the program, so that the program's own scenes find
 // them wherever the program is. In a scene such a file is called "shipped:drum.stl".
 struct ShippedMesh {

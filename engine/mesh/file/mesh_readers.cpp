@@ -45,7 +45,7 @@ std::string_view first_word(std::string_view bytes) {
 
 [[noreturn]] void refuse_binary(const fs::path& file, std::string_view bytes, bool solid) {
     if (bytes.size() < 84)
-        refuse_mesh(file, fmt::format("is no mesh: {} bytes that are no text; {}", bytes.size(), known));
+        refuse_file(file, fmt::format("is no mesh: {} bytes that are no text; {}", bytes.size(), known));
     const BinaryStl stl = as_binary_stl(bytes);
     const std::string sizes = fmt::format("says {} triangles, which take {} bytes; the file has {}",
                                           stl.triangles, stl.bytes, bytes.size());
@@ -96,6 +96,15 @@ TriangleMesh read_mesh(MeshFormat format, const fs::path& file, std::string_view
             return read_ply(file, bytes);
     }
     return {};
+}
+
+std::string too_far(double coordinate) {
+    return fmt::format("a coordinate of {:g}; the largest that is taken is {:g}", coordinate,
+                       largest_coordinate);
+}
+
+std::string no_coordinate(std::string_view word) {
+    return no_number(word) + (word.empty() ? "" : "; correct it, or export the mesh again");
 }
 
 }  // namespace grainreel

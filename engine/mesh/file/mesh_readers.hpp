@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "engine/mesh/triangle_mesh.hpp"
@@ -29,6 +30,12 @@ TriangleMesh read_obj(const std::filesystem::path& file, std::string_view bytes)
 TriangleMesh read_ply(const std::filesystem::path& file, std::string_view bytes);
 // Reads a mesh with the reader for this format.
 TriangleMesh read_mesh(MeshFormat format, const std::filesystem::path& file, std::string_view bytes);
+
+// The largest coordinate that is accepted, in the file's unit.
+inline constexpr double largest_coordinate = 1e15;
+std::string too_far(double coordinate);
+// The reason why a word is no coordinate, and what to do: "\"nan\" is not a finite number; correct it, ...".
+std::string no_coordinate(std::string_view word);
 
 // The words with which a line of an OBJ file can begin.
 inline bool is_obj_word(std::string_view word) {

@@ -16,7 +16,6 @@
 #include "engine/files/foreign/dumps/text_index.hpp"
 #include "engine/files/foreign/dumps/text_rows.hpp"
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
 
 namespace grainreel {
 

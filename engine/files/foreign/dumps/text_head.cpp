@@ -8,7 +8,6 @@
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
 
 namespace grainreel {
 namespace {

@@ -9,7 +9,6 @@
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/decimal.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
 
 namespace grainreel {
 

@@ -11,7 +11,6 @@
 #include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/decimal.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
 
 namespace grainreel {
 
