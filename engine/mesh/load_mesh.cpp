@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "engine/base/word_reader.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
 #include "engine/mesh/winding.hpp"

@@ -5,7 +5,6 @@
 
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
 
 namespace grainreel {

@@ -10,7 +10,6 @@
 #include "engine/base/text.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
 
 namespace grainreel {

@@ -14,7 +14,6 @@
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_xml.hpp"
 #include "engine/files/foreign/vtk/xml_arrays.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
 
 namespace grainreel {
