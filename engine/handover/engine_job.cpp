@@ -14,6 +14,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
+#include "engine/base/text.hpp"
+#include "engine/handover/decks.hpp"
 
 namespace grainreel {
 
@@ -29,15 +31,9 @@ Known known(PeerEngine engine) {
     return engine == PeerEngine::lammps ? Known{"lmp", "lammps"} : Known{"liggghts", "liggghts"};
 }
 
-std::string quoted_for_shell(const std::string& word) {
-    std::string out = "'";
-    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
-}
-
 // The first lines that a program prints.
 std::string said_by(const fs::path& program, const std::string& option) {
-    const std::string command = quoted_for_shell(program.string()) + " " + option + " </dev/null 2>/dev/null";
+    const std::string command = shell_word(program.string()) + " " + option + " </dev/null 2>/dev/null";
     const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
     if (!pipe) return "";
     std::array<char, 2000> text{};
@@ -131,8 +127,6 @@ RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std:
     return all;
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 constexpr std::size_t kLongest = 400;  // most characters of a line that are quoted
@@ -162,6 +156,20 @@ bool is_error(const std::string& line) {
 
 std::string cut(const std::string& text) {
     return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+bool says(const fs::path& file, const std::string& words) {
+    std::ifstream said(file);
+    for (std::string line; std::getline(said, line);)
+        if (line.find(words) != std::string::npos) return true;
+    return false;
+}
+
+// How an engine ended that gave this exit status, and said nothing of it in `output`.
+std::string ended_with(PeerEngine engine, int status, const fs::path& output) {
+    const std::string how = status > 128 ? fmt::format("was ended by signal {}", status - 128)
+                                         : fmt::format("ended with exit status {}", status);
+    return fmt::format("{} {}; its output is in {}", name_of(engine), how, output.string());
 }
 
 }  // namespace
@@ -217,11 +225,43 @@ std::string EngineJob::failure() {
     if (!said.empty()) return fmt::format("{} ended: {}", name_of(engine_), said);
     const int status = process_->status().value_or(0);
     if (status == 0) return "";
-    if (status > 128)
-        return fmt::format("{} was ended by signal {}; its output is in {}", name_of(engine_), status - 128,
-                           (folder_ / kOutput).string());
-    return fmt::format("{} ended with exit status {}; its output is in {}", name_of(engine_), status,
-                       (folder_ / kOutput).string());
+    return ended_with(engine_, status, folder_ / kOutput);
+}
+
+std::string log_name(PeerEngine engine) {
+    return fmt::format("log.{}", key_of(engine));
+}
+
+std::string output_name(PeerEngine engine) {
+    return fmt::format("out.{}", key_of(engine));
+}
+
+JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
+    JobEnd end;
+    int status = 0;
+    end.ended = static_cast<bool>(std::ifstream(folder / status_name) >> status);
+    if (!end.ended || status == 0) return end;
+    // A killed engine loses what it had not written of its log, and prints the error to its output as well.
+    for (const std::string& file : {log_name(facts.engine), output_name(facts.engine)}) {
+        const std::string said = engine_error(folder / file, folder / deck_name(facts.engine));
+        if (said.empty()) continue;
+        end.failure = fmt::format("{} ended: {}", name_of(facts.engine), said);
+        return end;
+    }
+    // Where a rank was killed, mpirun asks the others to end.
+    if (status <= 128 && says(folder / output_name(facts.engine), "SIGINT/SIGTERM caught")) {
+        end.failure = fmt::format("{} was asked to end by a signal", name_of(facts.engine));
+        return end;
+    }
+    end.failure = ended_with(facts.engine, status, folder / output_name(facts.engine));
+    return end;
+}
+
+std::string came_so_far(const fs::path& folder, const HandoverFacts& facts, double until, double wanted) {
+    const JobEnd end = job_end(folder, facts);
+    const std::string why = end.failure.empty() ? "" : end.failure + "; it";
+    return fmt::format("{} has come to {:.4g} s of {:.4g} s; what there is is shown",
+                       why.empty() ? name_of(facts.engine) : why, until, wanted);
 }
 
 }  // namespace grainreel

@@ -1,5 +1,6 @@
 // Runs another engine on this machine: finds its program and version, starts it with a deck, and explains its
-// error messages. The process itself is in guarded_process.hpp.
+// error messages. Also says how a job ended that somebody else ran by the run.sh of its folder. The process
+// itself is in guarded_process.hpp.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +11,7 @@
 
 #include "engine/handover/carried_scene.hpp"
 #include "engine/handover/guarded_process.hpp"
+#include "engine/handover/handover_folder.hpp"
 
 namespace grainreel {
 
@@ -71,5 +73,24 @@ class EngineJob {
     std::filesystem::path folder_;
     std::unique_ptr<GuardedProcess> process_;
 };
+
+// From here on: the job of a hand-over, which run.sh starts. What is known of it are the files in its folder.
+
+// run.sh writes the exit status of mpirun into this file once it has ended.
+inline constexpr const char* status_name = "job.status";
+// "log.lammps", the engine's own log, which also shows the command that failed.
+std::string log_name(PeerEngine engine);
+std::string output_name(PeerEngine engine);  // "out.lammps"
+
+struct JobEnd {
+    bool ended = false;   // known to have ended; stays false if run.sh itself was killed
+    std::string failure;  // what went wrong, one line; empty if no failure is known
+};
+JobEnd job_end(const std::filesystem::path& folder, const HandoverFacts& facts);
+
+// "LAMMPS has come to 0.1 s of 0.3 s; what there is is shown", with why it ended if that is known. until:
+// s, simulated so far. wanted: s, simulated in all.
+std::string came_so_far(const std::filesystem::path& folder, const HandoverFacts& facts, double until,
+                        double wanted);
 
 }  // namespace grainreel

@@ -10,7 +10,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/decks.hpp"
-#include "engine/handover/job_end.hpp"
+#include "engine/handover/engine_job.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/text/toml_text.hpp"

@@ -2,11 +2,15 @@
 // own runs is (engine/measure/health.hpp), with the same limits and words. Contacts are found from places.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "engine/frame.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/grains.hpp"
 
 namespace grainreel {
 
@@ -26,5 +30,11 @@ class ReturnedHealth {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+// Finds the grains that overlap from their places alone, because frames of other engines have no lists. Calls
+// see() once for each pair, with their indices and the overlap (m). period: of x in m; 0 for none. Places may
+// lie beyond the period. The order of the pairs depends only on the places.
+void for_overlapping(const std::vector<Place>& places, double period,
+                     const std::function<void(std::int32_t, std::int32_t, double)>& see);
 
 }  // namespace grainreel

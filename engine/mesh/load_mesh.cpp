@@ -8,9 +8,8 @@
 #include <numeric>
 #include <string_view>
 
-#include "engine/mesh/file/mesh_bytes.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
-#include "engine/mesh/file/words.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
 #include "engine/mesh/winding.hpp"
 
@@ -32,7 +31,7 @@ void place(TriangleMesh& mesh, const MeshPlacement& placement, const fs::path& f
         if (turned) vertex = turn * vertex;
         vertex += placement.position;
         if (!(vertex.cwiseAbs().maxCoeff() <= largest_coordinate))
-            refuse_mesh(
+            refuse_file(
                 file,
                 fmt::format("a corner would stand {:g} m from the origin; give another scale or position",
                             vertex.norm()));
@@ -311,10 +310,10 @@ LoadedMesh load_mesh(const fs::path& file, const MeshPlacement& placement) {
     loaded.facts.format = name_of(format);
     loaded.mesh = read_mesh(format, file, bytes);
     loaded.facts.read = static_cast<std::int64_t>(loaded.mesh.triangles.size());
-    if (loaded.mesh.empty()) refuse_mesh(file, fmt::format("this {} has no triangles", loaded.facts.format));
+    if (loaded.mesh.empty()) refuse_file(file, fmt::format("this {} has no triangles", loaded.facts.format));
     place(loaded.mesh, placement, file);
     mend(loaded.mesh, loaded.facts);
-    if (loaded.mesh.empty()) refuse_mesh(file, "all triangles of this mesh are without area");
+    if (loaded.mesh.empty()) refuse_file(file, "all triangles of this mesh are without area");
     return loaded;
 }
 

@@ -1,5 +1,5 @@
 // Tests of the meshes that come with the program.
-#include "engine/mesh/file/mesh_bytes.hpp"
+#include "engine/mesh/file/mesh_readers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -12,13 +12,6 @@
 namespace grainreel::test {
 namespace {
 
-FilmedScene straight_on() {
-    FilmedScene scene = wedge(960, 540);
-    scene.film.camera.field_of_view = 0;
-    scene.film.camera.azimuth = scene.film.camera.elevation = 0;
-    return scene;
-}
-
 // There are two layers: species 0 is nearer to the camera, which looks along -x, and species 1 is behind and
 // beside it.
 const std::vector<Ball> kBalls{{{0.02, 0.00, 0.08}, 0.010, 0},

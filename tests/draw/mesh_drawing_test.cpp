@@ -11,9 +11,14 @@
 #include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/light/sphere_layer.hpp"
 #include "tests/draw/support.hpp"
+#include "tests/mesh/shapes.hpp"
 
 namespace grainreel::test {
 namespace {
+
+using shapes::add_quad;
+using shapes::add_triangle;
+using shapes::box;
 
 constexpr int kWidth = 320, kHeight = 240;
 constexpr double kEdgeAngle = 30 * pi / 180;
@@ -23,28 +28,6 @@ std::shared_ptr<const MeshShape> shape_of(TriangleMesh mesh, MeshLook look) {
     MeshFacts facts;
     mend(mesh, facts);
     return mesh_shape(Surface(std::move(mesh), facts, ""), kEdgeAngle, look);
-}
-
-void add_quad(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
-    for (const Vec3& corner : {a, b, c, d}) mesh.vertices.push_back(corner);
-    mesh.triangles.push_back({first, first + 1, first + 2});
-    mesh.triangles.push_back({first, first + 2, first + 3});
-}
-
-// A box of six faces, or five without the upper one, with normals outwards.
-TriangleMesh box(const Vec3& low, const Vec3& high, bool lid = true) {
-    const auto at = [&](int k) {
-        return Vec3((k & 1 ? high : low).x(), (k & 2 ? high : low).y(), (k & 4 ? high : low).z());
-    };
-    TriangleMesh mesh;
-    add_quad(mesh, at(0), at(2), at(3), at(1));
-    add_quad(mesh, at(0), at(1), at(5), at(4));
-    add_quad(mesh, at(1), at(3), at(7), at(5));
-    add_quad(mesh, at(3), at(2), at(6), at(7));
-    add_quad(mesh, at(2), at(0), at(4), at(6));
-    if (lid) add_quad(mesh, at(4), at(5), at(7), at(6));
-    return mesh;
 }
 
 struct Scenery {
@@ -320,25 +303,17 @@ TriangleMesh drum_with_bars(double radius, double half_length) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec3 &here = ring[i], &next = ring[(i + 1) % ring.size()];
         add_quad(mesh, here - up, next - up, next + up, here + up);
-        for (const Vec3& corner :
-             {up, Vec3(here + up), Vec3(next + up), Vec3(-up), Vec3(next - up), Vec3(here - up)})
-            mesh.vertices.push_back(corner);
-        const auto first = static_cast<std::int32_t>(mesh.vertices.size() - 6);
-        mesh.triangles.push_back({first, first + 1, first + 2});
-        mesh.triangles.push_back({first + 3, first + 4, first + 5});
+        add_triangle(mesh, up, here + up, next + up);
+        add_triangle(mesh, -up, next - up, here - up);
     }
     return mesh;
 }
 
 TEST(MeshSides, AVesselWithDeepBarsIsGlassAllRoundAndABarThatFloatsInItIsSolid) {
     TriangleMesh mesh = drum_with_bars(0.1, 0.03);
-    const auto drum = mesh.triangles.size(), first = mesh.vertices.size();
+    const auto drum = mesh.triangles.size();
     const TriangleMesh bar = box({-0.01, -0.02, -0.01}, {0.01, 0.02, 0.01});
-    mesh.vertices.insert(mesh.vertices.end(), bar.vertices.begin(), bar.vertices.end());
-    for (TriangleMesh::Triangle corners : bar.triangles) {
-        for (auto& corner : corners) corner += static_cast<std::int32_t>(first);
-        mesh.triangles.push_back(corners);
-    }
+    shapes::add(mesh, bar);
     const auto shape = shape_of(mesh, MeshLook::vessel);
     ASSERT_EQ(shape->sides.size(), drum + bar.triangles.size());
     for (std::size_t t = 0; t < drum; ++t)
@@ -357,12 +332,8 @@ TEST(MeshSides, AFlatPlateIsSolidFromBothSides) {
 
 // The box has walls of 5 mm and is open above.
 TEST(MeshSides, WallsWithAThicknessAreGlassOutsideAndSolidWithinAndAtTheRim) {
-    TriangleMesh shell = box({0, 0, 0}, {0.1, 0.1, 0.1}, false),
-                 inner = box({0.005, 0.005, 0.005}, {0.095, 0.095, 0.1}, false);
-    const auto first = static_cast<std::int32_t>(shell.vertices.size());
-    for (const Vec3& v : inner.vertices) shell.vertices.push_back(v);
-    for (const TriangleMesh::Triangle& t : inner.triangles)
-        shell.triangles.push_back({first + t[0], first + t[2], first + t[1]});
+    TriangleMesh shell = box({0, 0, 0}, {0.1, 0.1, 0.1}, false);
+    shapes::add(shell, shapes::inside_out(box({0.005, 0.005, 0.005}, {0.095, 0.095, 0.1}, false)));
     const double a = 0, b = 0.1, c = 0.005, d = 0.095, z = 0.1;
     add_quad(shell, {a, a, z}, {b, a, z}, {d, c, z}, {c, c, z});
     add_quad(shell, {b, a, z}, {b, b, z}, {d, d, z}, {d, c, z});

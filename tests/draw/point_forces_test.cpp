@@ -9,13 +9,6 @@
 namespace grainreel::test {
 namespace {
 
-FilmedScene straight_on() {
-    FilmedScene scene = wedge(960, 540);
-    scene.film.camera.field_of_view = 0;
-    scene.film.camera.azimuth = scene.film.camera.elevation = 0;
-    return scene;
-}
-
 // The camera looks along -x: y is to the right, z upwards.
 TEST(PointForces, ArrowsAreAsLongAsTheForcesAndEndWhereTheyPush) {
     const View view = view_of(straight_on());

@@ -64,6 +64,14 @@ inline FilmedScene wedge(int width = 640, int height = 360) {
     return scene;
 }
 
+// The wedge as a camera sees it that looks along -x from very far away: y is to the right, z upwards.
+inline FilmedScene straight_on() {
+    FilmedScene scene = wedge(960, 540);
+    scene.film.camera.field_of_view = 0;
+    scene.film.camera.azimuth = scene.film.camera.elevation = 0;
+    return scene;
+}
+
 struct Ball {
     Vec3 at;
     double radius = 0.005;

@@ -12,31 +12,14 @@ namespace grainreel::test {
 namespace {
 
 std::string turning_box(double restitution, double friction) {
-    return fmt::format(R"(
-[[species]]
-name = "ball"
-count = 60
-diameter = "3 mm"
-density = 2500
-[contact]
-law = "spring-dashpot"
-friction_law = "linear-spring"
-stiffness = 300
-restitution = {}
-friction = {}
-[container]
-shape = "box"
-width = "24 mm"
-depth = "15 mm"
-height = "24 mm"
-turn = {{ axis = [1, 0, 0], through = [0, 0, 0.012], rate = "60 rpm" }}
+    return balls_in_box(restitution, friction, R"(
+turn = { axis = [1, 0, 0], through = [0, 0, 0.012], rate = "60 rpm" }
 [output]
 trajectory_interval = "10 ms"
 [run]
 duration = "0.2 s"
 step = 4e-5
-)",
-                       restitution, friction);
+)");
 }
 
 class EngineGoesOn : public testing::TestWithParam<PeerEngine> {

@@ -1,5 +1,6 @@
 #include "tests/engines/handed.hpp"
 
+#include <fmt/format.h>
 #include <chrono>
 #include <thread>
 
@@ -15,6 +16,28 @@ namespace grainreel::test {
 bool has_engine(PeerEngine engine) {
     return !program_named(engine == PeerEngine::lammps ? "lmp" : "liggghts").empty() &&
            !program_named("mpirun").empty();
+}
+
+std::string balls_in_box(double restitution, double friction, const std::string& more) {
+    return fmt::format(R"(
+[[species]]
+name = "ball"
+count = 60
+diameter = "3 mm"
+density = 2500
+[contact]
+law = "spring-dashpot"
+friction_law = "linear-spring"
+stiffness = 300
+restitution = {}
+friction = {}
+[container]
+shape = "box"
+width = "24 mm"
+depth = "15 mm"
+height = "24 mm"
+{})",
+                       restitution, friction, more);
 }
 
 CarriedScene hand_over(const std::string& text, const CarryRequest& request,

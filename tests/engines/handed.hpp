@@ -25,6 +25,10 @@ namespace grainreel::test {
 // Whether the engine and mpirun are installed; ./test --peers installs them.
 bool has_engine(PeerEngine engine);
 
+// The text of a scene with 60 balls in a box. more: what it has beside these, from the container's last keys
+// on.
+std::string balls_in_box(double restitution, double friction, const std::string& more);
+
 // Writes deck, data and walls of a scene into the folder. Throws UserError for a scene that is not carried.
 CarriedScene hand_over(const std::string& text, const CarryRequest& request,
                        const std::filesystem::path& folder);

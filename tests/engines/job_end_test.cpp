@@ -12,7 +12,7 @@
 
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/decks.hpp"
-#include "engine/handover/job_end.hpp"
+#include "engine/handover/engine_job.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
 
@@ -23,24 +23,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 // It would take half an hour.
-constexpr const char* kLong = R"(
-[[species]]
-name = "ball"
-count = 60
-diameter = "3 mm"
-density = 2500
-[contact]
-law = "spring-dashpot"
-friction_law = "linear-spring"
-stiffness = 300
-restitution = 0.7
-friction = 0.3
-[container]
-shape = "box"
-width = "24 mm"
-depth = "15 mm"
-height = "24 mm"
-[drive]
+constexpr const char* kLong = R"([drive]
 frequency = "20 Hz"
 g_level = 3
 [output]
@@ -57,7 +40,7 @@ class EarlyEnd : public testing::TestWithParam<PeerEngine> {
         CarryRequest request;
         request.engine = GetParam();
         request.ranks = 2;
-        hand_over(kLong, request, folder_.path());
+        hand_over(balls_in_box(0.7, 0.3, kLong), request, folder_.path());
         std::string script = (folder_ / "run.sh").string(), shell = "sh";
         char* words[] = {shell.data(), script.data(), nullptr};
         ASSERT_EQ(::posix_spawnp(&job_, "sh", nullptr, nullptr, words, environ), 0);

@@ -8,7 +8,7 @@
 
 #include "engine/handover/decks.hpp"
 #include "engine/handover/dump_tail.hpp"
-#include "engine/handover/job_end.hpp"
+#include "engine/handover/engine_job.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel::test {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/handover/near_grains.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 

@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "engine/base/text.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 namespace {
@@ -66,7 +65,7 @@ class Obj {
         for (int k = 0; k < 3; ++k) {
             const std::string_view word = next();
             const std::optional<double> value = number_in(word);
-            if (!value) refuse_line(file_, words_.line(), no_number(word));
+            if (!value) refuse_line(file_, words_.line(), no_coordinate(word));
             if (std::abs(*value) > largest_coordinate) refuse_line(file_, words_.line(), too_far(*value));
             place[k] = *value;
         }

@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "engine/base/text.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 namespace {
@@ -177,7 +176,7 @@ class PlyHeaderReader {
                          ? 2
                          : bytes_of(property.list ? property.count_type : property.type);
         if (bytes > 0 && element.count > (header_.body.size() + 1) / bytes)
-            refuse_mesh(file_,
+            refuse_file(file_,
                         fmt::format("the header says {} of element {}, and the file has only {} bytes behind "
                                     "the header; it is not whole",
                                     element.count, excerpt(element.name), header_.body.size()));
@@ -198,7 +197,7 @@ class AsciiBody {
         const std::string_view word = words_.next();
         if (word.empty()) fail("the file ends before all elements that its header names; it is not whole");
         const std::optional<double> value = number_in(word);
-        if (!value) fail(no_number(word));
+        if (!value) fail(no_coordinate(word));
         if (type < PlyType::float32 && *value != std::floor(*value))
             fail(fmt::format("\"{}\" is not a whole number", excerpt(word)));
         return *value;
@@ -372,14 +371,14 @@ std::size_t corners_of(const PlyElement& face) {
 TriangleMesh read_ply(const fs::path& file, std::string_view bytes) {
     const PlyHeader header = PlyHeaderReader(file, bytes).read();
     const PlyElement *const vertex = header.element("vertex"), *const face = header.element("face");
-    if (vertex == nullptr) refuse_mesh(file, "this PLY file has no element vertex");
+    if (vertex == nullptr) refuse_file(file, "this PLY file has no element vertex");
     for (const char* name : {"x", "y", "z"})
         if (vertex->place_of(name) == PlyElement::npos)
-            refuse_mesh(file, fmt::format("the vertices of this PLY file have no property {}", name));
-    if (face == nullptr) refuse_mesh(file, "this PLY file has no element face; write triangles or polygons");
+            refuse_file(file, fmt::format("the vertices of this PLY file have no property {}", name));
+    if (face == nullptr) refuse_file(file, "this PLY file has no element face; write triangles or polygons");
     const std::size_t corners = corners_of(*face);
     if (corners == PlyElement::npos)
-        refuse_mesh(file, "the faces of this PLY file have no list vertex_indices");
+        refuse_file(file, "the faces of this PLY file have no list vertex_indices");
     if (header.form == PlyHeader::Form::ascii)
         return Ply<AsciiBody>(header, corners, AsciiBody(file, header)).read();
     return Ply<BinaryBody>(header, corners, BinaryBody(file, header, bytes)).read();

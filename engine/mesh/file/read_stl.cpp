@@ -9,9 +9,8 @@
 
 #include "engine/base/text.hpp"
 #include "engine/base/vector.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 namespace {
@@ -139,7 +138,7 @@ class AsciiStl {
     double coordinate() {
         const std::string_view word = words_.next();
         const std::optional<double> value = number_in(word);
-        if (!value) refuse_line(file_, words_.line(), no_number(word));
+        if (!value) refuse_line(file_, words_.line(), no_coordinate(word));
         if (std::abs(*value) > largest_coordinate) refuse_line(file_, words_.line(), too_far(*value));
         return *value;
     }

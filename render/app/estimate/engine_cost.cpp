@@ -19,7 +19,7 @@
 #include "engine/state/grains.hpp"
 #include "engine/step/motion/scheme.hpp"
 #include "engine/vector/instructions.hpp"
-#include "render/app/messages/build_info.hpp"
+#include "render/app/messages/version.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

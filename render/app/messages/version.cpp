@@ -23,7 +23,6 @@ extern "C" {
 
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/vector/instructions.hpp"
-#include "render/app/messages/build_info.hpp"
 
 namespace grainreel {
 
@@ -84,9 +83,6 @@ std::string version_text() {
         text += fmt::format("\n  {:<15}{} when built", name, version);
     return text;
 }
-
-}  // namespace grainreel
-namespace grainreel {
 
 ProgramInfo program_info() {
     return {build_info::version, build_info::commit, build_info::compiler, build_info::flags,

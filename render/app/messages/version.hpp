@@ -1,4 +1,5 @@
-// The versions of this program and its libraries, for --version and run.json.
+// The versions of this program and its libraries, and what its binary was made from, for --version and
+// run.json.
 #pragma once
 
 #include <string>
@@ -6,6 +7,17 @@
 #include <vector>
 
 #include "engine/files/run_json.hpp"
+
+// What this binary was made from. The build writes the values into a source of their own
+// (render/app/build_info.cmake), so a commit, or the first change after it, compiles nothing else.
+namespace grainreel::build_info {
+
+extern const char* const version;
+extern const char* const commit;  // "-dirty": with changes on top; "unknown": not from a repository
+extern const char* const compiler;
+extern const char* const flags;
+
+}  // namespace grainreel::build_info
 
 namespace grainreel {
 

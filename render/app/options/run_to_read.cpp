@@ -13,8 +13,8 @@
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/app/messages/build_info.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
 
 namespace grainreel {

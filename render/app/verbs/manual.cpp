@@ -12,8 +12,8 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "render/app/command_line.hpp"
-#include "render/app/messages/build_info.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 

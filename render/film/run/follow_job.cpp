@@ -11,7 +11,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/handover/job_end.hpp"
+#include "engine/handover/engine_job.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sampling/timeline.hpp"

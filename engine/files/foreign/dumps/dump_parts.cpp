@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/base/text.hpp"
-#include "engine/mesh/file/words.hpp"
+#include "engine/base/word_reader.hpp"
 
 namespace grainreel {
 

@@ -7,12 +7,12 @@
 #include <mutex>
 
 #include "engine/base/error.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/dumps/binary_head.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
 
 namespace grainreel {
 namespace {

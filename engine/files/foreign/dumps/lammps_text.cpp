@@ -9,14 +9,13 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
 #include "engine/files/foreign/dumps/text_index.hpp"
 #include "engine/files/foreign/dumps/text_rows.hpp"
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 

@@ -7,9 +7,8 @@
 #include <string_view>
 
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/decimal.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 namespace {

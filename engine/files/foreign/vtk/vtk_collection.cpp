@@ -17,11 +17,11 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_parts.hpp"
 #include "engine/files/foreign/vtk/xml_arrays.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 

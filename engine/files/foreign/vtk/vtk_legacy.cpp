@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/legacy_text.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_xml.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/byte_source.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 

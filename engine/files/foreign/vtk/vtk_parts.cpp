@@ -8,14 +8,13 @@
 
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_xml.hpp"
 #include "engine/files/foreign/vtk/xml_arrays.hpp"
-#include "engine/mesh/file/mesh_bytes.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
-#include "engine/mesh/file/words.hpp"
 
 namespace grainreel {
 

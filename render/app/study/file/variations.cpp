@@ -8,7 +8,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/text/toml_text.hpp"
-#include "render/app/study/file/read_study.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

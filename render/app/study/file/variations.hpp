@@ -1,11 +1,12 @@
 // The values of a key that a study varies: as they are written, as numbers of an axis, and in ranges.
-// variations.cpp also has the functions of read_study.hpp that read [[vary]], [[variant]] and seeds.
+// Also reads them from a study file, [[vary]], [[variant]] and seeds.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/scene/keys/document.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/app/study/study.hpp"
 
@@ -38,5 +39,15 @@ std::vector<std::string> range_values(const ValueRange& range);
 // at the dimension of the key. If all values have the same unit they stay in it; otherwise all are converted
 // to SI units.
 void make_numeric(Variation& variation, const Key& key);
+
+// These are for read_study(), in the order in which it calls them. Each throws UserError with the place of
+// the mistake.
+
+// Reads the seeds at that path, given as a number of seeds or a list; none when the key is absent.
+Seeds read_seeds(Document& document, const std::string& path);
+// Makes all [[variant]] the first variation. To be called before the others are read.
+void read_variants(Document& document, Study& study);
+// Reads one element of a list of tables, "vary[0]", and adds it to the study.
+void read_variation(Document& document, const std::string& table, Study& study);
 
 }  // namespace grainreel

@@ -1,10 +1,11 @@
-#include "engine/mesh/file/words.hpp"
+#include "engine/base/word_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
 
+#include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 
 namespace grainreel {
@@ -28,6 +29,12 @@ bool is_tiny(std::string_view word) {
 std::string_view without_plus(std::string_view word) {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
     return word;
+}
+
+constexpr std::size_t most_of_a_path = 400;  // characters of a path in a message
+
+std::string shown(const std::filesystem::path& file) {
+    return excerpt(file.string(), most_of_a_path);
 }
 
 }  // namespace
@@ -106,12 +113,19 @@ double decimal_of(float value) {
 
 std::string no_number(std::string_view word) {
     if (word.empty()) return "a number is missing";
-    return fmt::format("\"{}\" is not a finite number; correct it, or export the mesh again", excerpt(word));
+    return fmt::format("\"{}\" is not a finite number", excerpt(word));
 }
 
-std::string too_far(double coordinate) {
-    return fmt::format("a coordinate of {:g}; the largest that is taken is {:g}", coordinate,
-                       largest_coordinate);
+void refuse_file(const std::filesystem::path& file, const std::string& what) {
+    throw UserError(fmt::format("{}: {}", shown(file), what));
+}
+
+void refuse_line(const std::filesystem::path& file, std::int64_t line, const std::string& what) {
+    throw UserError(fmt::format("{}:{}: {}", shown(file), line, what));
+}
+
+void refuse_byte(const std::filesystem::path& file, std::size_t byte, const std::string& what) {
+    throw UserError(fmt::format("{}: byte {}: {}", shown(file), byte, what));
 }
 
 }  // namespace grainreel

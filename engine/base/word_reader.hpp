@@ -1,7 +1,10 @@
-// Reads the words of a text file, with the line in which each stands, and the numbers in words.
+// Reads text files word by word: words with the line in which each stands, numbers, and errors that name the
+// place in a file.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,11 +47,12 @@ std::optional<std::int64_t> whole_in(std::string_view word);
 // stands at the same place, to the last bit, in a binary file and in a text file.
 double decimal_of(float value);
 
-// The reason why a word is no coordinate: "\"nan\" is not a finite number".
+// The reason why a word is no number: "\"nan\" is not a finite number".
 std::string no_number(std::string_view word);
 
-// The largest coordinate that is accepted, in the file's unit.
-inline constexpr double largest_coordinate = 1e15;
-std::string too_far(double coordinate);
+// These throw UserError with the text "file: what", "file:line: what" or "file: byte 84: what".
+[[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& what);
+[[noreturn]] void refuse_line(const std::filesystem::path& file, std::int64_t line, const std::string& what);
+[[noreturn]] void refuse_byte(const std::filesystem::path& file, std::size_t byte, const std::string& what);
 
 }  // namespace grainreel
