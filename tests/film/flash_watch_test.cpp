@@ -66,5 +66,28 @@ TEST(FlashWatch, ASlowRiseAndFallIsAsMuchAsASuddenOne) {
     EXPECT_FALSE(watched(1, [](double t) { return 0.1 + 0.3 * t; })) << "a rise alone is no flash";
 }
 
+// Shows 3 s of a chequerboard of 24 x 18 fields, whose bright and dark fields are exchanged ten times a
+// second. Of each 24 dark fields 3 keep their luminance, so that the others are fewer than the bright ones.
+TEST(FlashWatch, PlacesThatExchangeTheirBrightnessAreNone) {
+    FlashWatch exchanged(kRate), together(kRate);
+    for (int frame = 0; frame < 3 * kRate; ++frame) {
+        const bool turn = square(0, 1, 5)(frame / kRate) > 0.5;
+        Picture fields(480, 270), same(480, 270);
+        for (int y = 0; y < fields.height; ++y)
+            for (int x = 0; x < fields.width; ++x) {
+                const int across = x * 24 / fields.width, down = y * 18 / fields.height;
+                const bool odd = (across + down) % 2 == 1, keeps = odd && across % 8 == 0;
+                for (int c = 0; c < 3; ++c) {
+                    fields.pixel(x, y)[c] = grey(!keeps && odd == turn ? 0.5 : 0.2);
+                    same.pixel(x, y)[c] = grey(!odd && turn ? 0.5 : 0.2);
+                }
+            }
+        exchanged.add(fields);
+        together.add(same);
+    }
+    EXPECT_FALSE(exchanged.too_much_at());
+    EXPECT_TRUE(together.too_much_at()) << "half of all fields flash five times a second";
+}
+
 }  // namespace
 }  // namespace grainreel

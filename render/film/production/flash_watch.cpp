@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 
 #include "render/picture/base/picture.hpp"
 
@@ -68,17 +69,17 @@ void FlashWatch::add(const Picture& picture) {
         }
 }
 
-// Returns 1 or -1 when a quarter of the window has just become brighter or darker, else 0.
+// Returns 1 or -1 when a quarter of the window has just become brighter or darker, else 0. Places that became
+// brighter and places that became darker at the same time cancel.
 int FlashWatch::turning(int column, int row, double now) const {
-    int up = 0, down = 0;
+    int more = 0;  // places that became brighter, less those that became darker
     for (int y = row; y < row + kHigh; ++y)
         for (int x = column; x < column + kWide; ++x) {
             const Place& place = places_[static_cast<std::size_t>(y * kAcross + x)];
-            if (place.direction == 0 || place.turned < now - kTogether) continue;
-            ++(place.direction > 0 ? up : down);
+            if (place.direction != 0 && place.turned >= now - kTogether) more += place.direction;
         }
-    const bool enough = 4 * std::max(up, down) >= kWide * kHigh;
-    return !enough ? 0 : up > down ? 1 : -1;
+    if (4 * std::abs(more) < kWide * kHigh) return 0;
+    return more > 0 ? 1 : -1;
 }
 
 // Takes the luminance of a place. A change is noted once it is large enough, and grows as long as it goes on

@@ -2,7 +2,8 @@
 // general flash threshold of WCAG 2.2, success criterion 2.3.1. A flash is a pair of opposing changes of the
 // relative luminance by 0.1 or more, the darker side being below 0.8. It counts where a quarter of a window
 // of a third of the picture each way (10 degrees of the visual field) changes in one direction at the same
-// time.
+// time. Parts that change in the other direction then are subtracted: grains that only change places make
+// some places brighter and as many darker, and the window as a whole does not flash.
 #pragma once
 
 #include <array>
