@@ -86,9 +86,10 @@ enum class RunFrame { lab, container };
 
 struct CarriedScene {
     PeerEngine engine = PeerEngine::lammps;
-    int ranks = 1;  // processes of the engine (MPI)
-    Scene scene;    // with the other engine's laws and the plan's choices; our run for comparison takes it
-    Plan plan;      // of that scene
+    int ranks = 1;                           // processes of the engine (MPI)
+    std::string engine_option, pack_option;  // of the verb in use (CarryRequest), for messages
+    Scene scene;  // with the other engine's laws and the plan's choices; our run for comparison takes it
+    Plan plan;    // of that scene
 
     std::vector<CarriedType> types;
     std::vector<CarriedPair> pairs;        // types x types, row-major, symmetric

@@ -36,6 +36,8 @@ CarriedScene carry(const Scene& scene, const Plan& plan, const CarryRequest& req
     CarriedScene carried;
     carried.engine = request.engine;
     carried.ranks = request.ranks;
+    carried.engine_option = request.engine_option;
+    carried.pack_option = request.pack_option;
     carried.scene = with_choices(scene, plan);
     carry_laws(request, plan, carried);
     if (!carried.refusals.empty()) {
@@ -125,15 +127,16 @@ void choose_packing(const CarryRequest& request, CarriedScene& carried) {
         fmt::format("the grains are packed there: they fall from a lattice for {:.3g} s, with our drag "
                     "of {} 1/s",
                     static_cast<double>(carried.packing_steps) * carried.step, carried.packing_drag),
-        fmt::format("above {} grains our packing takes longer than theirs on many ranks (--pack-there "
-                    "sets the number)",
-                    request.packs_above));
+        fmt::format("above {} grains our packing takes longer than theirs on many ranks ({} sets the number)",
+                    request.packs_above, carried.pack_option));
     for (const CarriedPair& pair : carried.pairs)
         if (pair.law == CarriedLaw::hertz && carried.engine == PeerEngine::lammps) {
             add_refusal(
                 carried, scene.where("contact.law"),
-                "hertz with packing there: LAMMPS of 29 Sep 2021 changes a wall's damping at each further "
-                "run; pack here (--pack-there above the number of grains)");
+                fmt::format(
+                    "hertz with packing there: LAMMPS of 29 Sep 2021 changes a wall's damping at each "
+                    "further run; pack here ({} above the number of grains)",
+                    carried.pack_option));
             break;
         }
 }
@@ -167,14 +170,17 @@ void check_traffic(CarriedScene& carried) {
     if (!scene.exits.empty() && carried.engine == PeerEngine::liggghts)
         add_refusal(
             carried, scene.where("exit[0]"),
-            "exits of a box are not carried to LIGGGHTS; an outlet is, and --to lammps carries exits");
+            fmt::format(
+                "exits of a box are not carried to LIGGGHTS; an outlet is, and {} lammps carries exits",
+                carried.engine_option));
     for (std::size_t f = 0; f < scene.feeds.size(); ++f) {
         const std::string where = scene.where(fmt::format("feed[{}]", f));
         if (carried.engine == PeerEngine::lammps)
             add_refusal(
                 carried, where,
-                "LAMMPS keeps no rate of a feed (400 grains came in 0.24 s where 1 s was asked for); use "
-                "--to liggghts");
+                fmt::format("LAMMPS keeps no rate of a feed (400 grains came in 0.24 s where 1 s was asked "
+                            "for); use {} liggghts",
+                            carried.engine_option));
         else if (scene.species[scene.feeds[f].species].diameter.kind != SizeSpread::Kind::fixed)
             add_change(carried, where, "a feed's spread of sizes becomes several sizes, each as frequent",
                        "LIGGGHTS inserts grains of given sizes alone");
@@ -246,8 +252,8 @@ void check_meshes(CarriedScene& carried) {
         const std::string where = scene.where(fmt::format("mesh[{}]", m));
         if (carried.engine == PeerEngine::lammps)
             add_refusal(carried, where,
-                        fmt::format("mesh {}: LAMMPS of {} has no walls of triangles; use --to liggghts",
-                                    mesh.name, version_of(carried.engine)));
+                        fmt::format("mesh {}: LAMMPS of {} has no walls of triangles; use {} liggghts",
+                                    mesh.name, version_of(carried.engine), carried.engine_option));
         else if (!mesh.path_file.empty())
             add_refusal(carried, where,
                         fmt::format("mesh {}: a motion from a file is not carried; a turn, a steady velocity "
@@ -265,12 +271,15 @@ void check_outlet(CarriedScene& carried) {
         scene.container.shape == Container::Shape::cylinder)
         add_refusal(
             carried, where,
-            "LAMMPS has no region for a floor with a round hole or below a cylinder; use --to liggghts");
+            fmt::format(
+                "LAMMPS has no region for a floor with a round hole or below a cylinder; use {} liggghts",
+                carried.engine_option));
     if (scene.container.turn)
         add_refusal(carried, where, "an outlet of a container that turns is not carried");
     if (scene.container.tray)
         add_refusal(carried, scene.where("container.tray"),
-                    "a tray is not carried to LAMMPS; use --to liggghts, or leave it out");
+                    fmt::format("a tray is not carried to LAMMPS; use {} liggghts, or leave it out",
+                                carried.engine_option));
 }
 
 }  // namespace

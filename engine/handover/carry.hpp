@@ -20,6 +20,8 @@ struct CarryRequest {
     bool edinburgh = false;   // for LIGGGHTS on one rank: Walton-Braun stays as it is
     // With more grains than this the deck packs them itself.
     std::int64_t packs_above = 1'000'000;
+    // Options of the verb in use, for messages: the one that names the engine, and the one of packs_above.
+    std::string engine_option = "--to", pack_option = "--pack-there";
     // Steps at which the engine writes a dump, as we count; if empty, those of the trajectory.
     std::vector<std::int64_t> dumps{};
 };

@@ -208,7 +208,10 @@ void say_latch(const CarryRequest& request, const LawChanges& changes, CarriedSc
         fmt::format("the law walton-braun is none that {} has under MPI; with --accept law it becomes "
                     "a spring with a dashpot of the same stiffness and restitution ({}){}",
                     name_of(request.engine), cost,
-                    changes.table ? "" : "; nearest is LIGGGHTS on one rank: --to liggghts --law edinburgh"));
+                    changes.table
+                        ? ""
+                        : fmt::format("; nearest is LIGGGHTS on one rank: {} liggghts --law edinburgh",
+                                      request.engine_option)));
 }
 
 void say_slip(const CarryRequest& request, CarriedScene& carried) {
@@ -239,8 +242,9 @@ void say_changes(const CarryRequest& request, const LawChanges& changes, Carried
                    "a table of restitutions becomes one restitution", "neither engine has tables");
     if (changes.shares_modulus)
         add_refusal(carried, scene.where("contact.law"),
-                    "hertz: LIGGGHTS takes moduli by material, and no E* by kind of contact; "
-                    "LAMMPS takes it (--to lammps)");
+                    fmt::format("hertz: LIGGGHTS takes moduli by material, and no E* by kind of contact; "
+                                "LAMMPS takes it ({} lammps)",
+                                request.engine_option));
     if (changes.mixed)
         add_refusal(
             carried, scene.where("contact.friction_law"),
@@ -258,7 +262,8 @@ void carry_laws(const CarryRequest& request, const Plan&, CarriedScene& carried)
         for (PairContact& pair : *kind) carry_law(request, pair, changes);
     say_changes(request, changes, carried);
     if (request.edinburgh && request.engine != PeerEngine::liggghts)
-        add_refusal(carried, "--law edinburgh", "is a law of LIGGGHTS; use --to liggghts");
+        add_refusal(carried, "--law edinburgh",
+                    fmt::format("is a law of LIGGGHTS; use {} liggghts", request.engine_option));
     if (request.edinburgh && request.ranks > 1)
         add_refusal(carried, "--law edinburgh",
                     "loses its latch where a pair changes its rank; use --ranks 1");

@@ -85,21 +85,27 @@ EngineProgram find_engine(PeerEngine engine) {
     found.path = program_named(what.program);
     if (found.path.empty())
         throw UserError(
-            fmt::format("--engine {}: there is no program `{}` in PATH; Debian has it in the package {} "
+            fmt::format("{}: there is no program `{}` in PATH; Debian has it in the package {} "
                         "(sudo apt-get install {})",
-                        key_of(engine), what.program, what.package, what.package));
+                        name_of(engine), what.program, what.package, what.package));
     // Even with -h, LIGGGHTS opens its log in the working folder, unless it gets -log none.
     found.version = version_in(engine, said_by(found.path, "-log none -h"));
     if (found.version.empty())
-        throw UserError(fmt::format("--engine {}: {} does not say which version it is; try `{} -h`",
-                                    key_of(engine), found.path.string(), what.program));
+        throw UserError(fmt::format("{}: {} does not say which version it is; try `{} -h`", name_of(engine),
+                                    found.path.string(), what.program));
     check_version(engine, found.version);
     return found;
 }
 
-RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std::string& deck, int ranks) {
+RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std::string& deck, int ranks,
+                     bool goes_on) {
     const int processors = usable_processors();
     if (ranks < 1) throw UserError(fmt::format("--ranks {}: must be at least 1", ranks));
+    if (ranks > processors && goes_on)
+        throw UserError(
+            fmt::format("the run has {} ranks, but there are {} processors here; resume it where "
+                        "there are as many",
+                        ranks, processors));
     if (ranks > processors)
         throw UserError(fmt::format(
             "--ranks {}: there are {} processors here; give --ranks {}, or hand the scene over to "
@@ -107,9 +113,9 @@ RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std:
             ranks, processors, processors));
     const fs::path mpirun = program_named("mpirun");
     if (mpirun.empty())
-        throw UserError(fmt::format(
-            "--engine {}: there is no program `mpirun` in PATH; Debian has it in the package openmpi-bin",
-            key_of(engine)));
+        throw UserError(
+            fmt::format("{}: there is no program `mpirun` in PATH; Debian has it in the package openmpi-bin",
+                        name_of(engine)));
     RankWords all;
     all.words = {mpirun.string(), "-n", std::to_string(ranks)};
     if (said_by(mpirun, "--version").find("Open MPI") != std::string::npos) {
@@ -199,7 +205,7 @@ EngineJob::EngineJob(PeerEngine engine, int ranks, const std::string& deck, cons
     : engine_(engine),
       deck_(deck),
       program_(find_engine(engine)),
-      ranks_(rank_words(engine, program_, deck, ranks)) {
+      ranks_(rank_words(engine, program_, deck, ranks, !restart.empty())) {
     if (!restart.empty())
         for (const char* word : {"-var", "goes_on", "1", "-var", "restart", restart.c_str()})
             ranks_.words.emplace_back(word);

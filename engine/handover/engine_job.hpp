@@ -31,13 +31,15 @@ std::string version_in(PeerEngine engine, const std::string& text);
 // Throws UserError for versions whose results would be wrong.
 void check_version(PeerEngine engine, const std::string& version);
 
-// The command that starts so many ranks of the engine with a deck. Throws UserError where there is no mpirun,
-// and where this process may use fewer processors than ranks.
+// The command that starts so many ranks of the engine with a deck. goes_on: of a run that `resume` continues,
+// for messages. Throws UserError where there is no mpirun, and where this process may use fewer processors
+// than ranks.
 struct RankWords {
     std::vector<std::string> words;
     std::vector<std::string> notes;  // what the user should know, a line for each
 };
-RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std::string& deck, int ranks);
+RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std::string& deck, int ranks,
+                     bool goes_on = false);
 
 // The error message of an engine with the line of the deck: "in.lammps:7: ERROR: Unrecognized pair style 'x'
 // (at `pair_style x`)". output: the file with all that it printed, including its commands (-echo both). Empty

@@ -86,8 +86,8 @@ std::vector<Vec3> lattice_places(const CarriedScene& carried, std::size_t count,
             return places;
     throw UserError(fmt::format(
         "{}: {} grains do not fit the container without touching, as they must where the other engine packs; "
-        "let ours pack (--pack-there above {}), or take the lid off",
-        carried.scene.where("start"), count, count));
+        "let ours pack ({} above {}), or take the lid off",
+        carried.scene.where("start"), count, carried.pack_option, count));
 }
 
 using Grain = StartState::Grain;

@@ -56,6 +56,9 @@ AskedMoment MomentFinder::find(const MomentRequest& request) const {
     const std::vector<Frame>& moments = run_.moments();
     const auto named = [&](double time, const char* option) {
         const double from = run_.from(), to = last_time(), hair = 1e-9 + 1e-9 * std::abs(time);
+        if (std::isnan(from) || std::isnan(to))
+            throw UserError(fmt::format("{}: the time of {} is not known; leave it out", option,
+                                        run_.frames().path().string()));
         // A run of 8 s ends with its last whole step, which may lie a little before.
         if (time > to && time <= to + clock.step * (1 + 1e-9)) time = to;
         if (!(time >= from - hair && time <= to + hair))

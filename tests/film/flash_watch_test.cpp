@@ -66,5 +66,37 @@ TEST(FlashWatch, ASlowRiseAndFallIsAsMuchAsASuddenOne) {
     EXPECT_FALSE(watched(1, [](double t) { return 0.1 + 0.3 * t; })) << "a rise alone is no flash";
 }
 
+// Shows 3 s of a chequerboard of 24 x 18 fields. `bright` says which of them are, by their number and the
+// time (s).
+std::optional<double> watched_fields(const std::function<bool(int, double)>& bright) {
+    FlashWatch watch(kRate);
+    Picture picture(480, 270);
+    for (int frame = 0; frame < 3 * kRate; ++frame) {
+        for (int y = 0; y < picture.height; ++y)
+            for (int x = 0; x < picture.width; ++x) {
+                const int field = y * 18 / picture.height * 24 + x * 24 / picture.width;
+                for (int c = 0; c < 3; ++c)
+                    picture.pixel(x, y)[c] = grey(bright(field, frame / kRate) ? 0.5 : 0.2);
+            }
+        watch.add(picture);
+    }
+    return watch.too_much_at();
+}
+
+// WCAG exempts only fields smaller than 0.1 degrees. Here they have 1.25 degrees.
+TEST(FlashWatch, FieldsThatExchangeTheirBrightnessFlash) {
+    const auto odd = [](int field) { return (field % 24 + field / 24) % 2; };
+    const auto turn = square(0, 1, 5);
+    EXPECT_TRUE(watched_fields([&](int field, double t) { return odd(field) == (turn(t) > 0.5); }));
+    EXPECT_TRUE(watched_fields([&](int field, double t) { return odd(field) && turn(t) > 0.5; }));
+}
+
+// Each field flashes twice a second, at a time of its own. At every moment some of them change.
+TEST(FlashWatch, FieldsThatChangeSeldomEachAtItsOwnTimeAreNone) {
+    const auto turn = square(0, 1, 2);
+    EXPECT_FALSE(
+        watched_fields([&](int field, double t) { return turn(t + (field * 7 % 30) / kRate) > 0.5; }));
+}
+
 }  // namespace
 }  // namespace grainreel

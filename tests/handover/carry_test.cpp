@@ -84,6 +84,28 @@ TEST(Carry, TellsAllRefusalsAtOnce) {
     EXPECT_THAT(text, HasSubstr("rate of a feed"));
 }
 
+// `movie` has --engine, where `handover` has --to.
+TEST(Carry, RefusalsNameTheOptionOfTheVerbInUse) {
+    const std::string feed =
+        "[[feed]]\nrate = 5\ncount = 3\nlow = [-0.01, -0.01, 0.05]\nhigh = [0.01, 0.01, 0.055]\n";
+    const std::string law = "[contact]\nlaw = \"walton-braun\"\n";
+    CarryRequest request;
+    EXPECT_THAT(refusals(law + head + feed, request), HasSubstr("--to liggghts --law edinburgh"));
+    request.engine_option = "--engine";
+    request.pack_option = "handover --pack-there";
+    const std::string text = refusals(law + head + feed, request);
+    EXPECT_THAT(text, HasSubstr("--engine liggghts --law edinburgh"));
+    EXPECT_THAT(text, HasSubstr("for); use --engine liggghts"));
+    EXPECT_THAT(text, testing::Not(HasSubstr("--to")));
+    request.edinburgh = true;
+    EXPECT_THAT(refusals(law + head, request),
+                HasSubstr("--law edinburgh: is a law of LIGGGHTS; use --engine "));
+    request.edinburgh = false;
+    request.packs_above = 10;
+    EXPECT_THAT(refusals("[contact]\nlaw = \"hertz\"\n" + head, request),
+                HasSubstr("pack here (handover --pack-there above"));
+}
+
 TEST(Carry, TakesTheContainersFrameWhereAllMovesTogether) {
     EXPECT_EQ(carried_of(exact + head).frame, RunFrame::container);
     const std::string floor = exact + head;

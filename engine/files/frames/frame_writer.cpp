@@ -43,8 +43,30 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Throws UserError for a time outside the run. A run may end a little after its last frame, so a time may be
+// as far outside as frames are apart. Messages show times with six digits, so these must be taken too.
+void check_time(const FrameArchive& frames, const char* option, const std::optional<double>& time) {
+    if (!time) return;
+    const std::vector<Frame>& moments = frames.moments();
+    const double first = moments.front().time, last = moments.back().time;
+    if (std::isnan(first) || std::isnan(last))
+        throw UserError(
+            fmt::format("{}: the times of {} are not known; leave it out", option, frames.path().string()));
+    const double intervals = static_cast<double>(std::max<std::size_t>(moments.size(), 2) - 1);
+    const double slack = (last - first) / intervals + 1e-5 * std::abs(*time);
+    if (!(*time >= first - slack && *time <= last + slack))
+        throw UserError(fmt::format("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s",
+                                    option, *time, first, last));
+}
+
 std::vector<std::size_t> chosen(const FrameArchive& frames, const ExportChoice& choice) {
     const std::vector<Frame>& moments = frames.moments();
+    check_time(frames, "--at", choice.at);
+    check_time(frames, "--from", choice.from);
+    check_time(frames, "--until", choice.until);
+    if (choice.from && choice.until && *choice.from > *choice.until)
+        throw UserError(fmt::format("--from: {:.6g} s is later than --until, {:.6g} s; exchange the two",
+                                    *choice.from, *choice.until));
     if (choice.at) return {frames.nearest(*choice.at)};
     const double hair = 1e-9;
     std::vector<std::size_t> all;
@@ -136,7 +158,8 @@ Exported export_frames(const FrameArchive& frames, const std::string& format, co
     if (fs::is_directory(path, error)) fs::remove_all(path, error);
     fs::rename(part.path(), path, error);
     if (error) throw RunError(fmt::format("{}: cannot be made: {}", path.string(), error.message()));
-    return {path, static_cast<std::int64_t>(wanted.size()), bytes_of(path)};
+    return {path, static_cast<std::int64_t>(wanted.size()), bytes_of(path),
+            frames.moments()[wanted.front()].time};
 }
 
 }  // namespace grainreel

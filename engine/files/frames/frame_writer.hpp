@@ -69,12 +69,13 @@ struct Exported {
     std::filesystem::path path;  // file or folder
     std::int64_t frames = 0;
     std::uintmax_t bytes = 0;
+    double first = 0;  // s, time of the first frame
 };
 
 // Writes frames in the format of that name. The result gets its name only when it is whole. Throws UserError
-// where no frame is chosen, and where `path` exists already (unless `replace`) or cannot be made; throws
-// RunError where the disk is full. watcher: called with the share that is done. If it returns false, the
-// export stops and leaves nothing.
+// where no frame is chosen, where a time lies outside the run, and where `path` exists already (unless
+// `replace`) or cannot be made; throws RunError where the disk is full. watcher: called with the share that
+// is done. If it returns false, the export stops and leaves nothing.
 Exported export_frames(const FrameArchive& frames, const std::string& format,
                        const std::filesystem::path& path, const ExportChoice& choice, bool replace,
                        const std::function<bool(double)>& watcher);

@@ -1,4 +1,5 @@
 // The verb `export` writes frames of a run, of ours or of another program, in another program's format.
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -55,7 +56,8 @@ class Export final : public Verb {
             ->type_name("PATH")
             ->check(not_empty());
         parser.add_flag("--force", force_, "Replace a file or folder of that name");
-        CLI::Option* at = add_time(parser, "--at", choice_.at, "Write only this moment");
+        CLI::Option* at =
+            add_time(parser, "--at", choice_.at, "Write only this moment, or the kept one nearest to it");
         CLI::Option* from =
             add_time(parser, "--from", choice_.from, "First moment to write [the run's first]");
         CLI::Option* until =
@@ -82,7 +84,13 @@ class Export final : public Verb {
         const Exported made =
             export_frames(*frames, format_, out_.empty() ? usual_name() : out_, choice_, force_,
                           [&](double done) { return watcher("writing frames", done); });
-        reporter.info(fmt::format("wrote {}: {} frames, {}", made.path.string(), made.frames,
+        if (choice_.at && std::abs(made.first - *choice_.at) > 1e-5 * std::abs(*choice_.at))
+            reporter.info(
+                fmt::format("--at: {:.6g} s was not kept; {:.6g} s is written, the kept moment that "
+                            "is nearest",
+                            *choice_.at, made.first));
+        reporter.info(fmt::format("wrote {}: {} frame{}, {}", made.path.string(), made.frames,
+                                  made.frames == 1 ? "" : "s",
                                   data_size_text(static_cast<double>(made.bytes))));
         print_exact(made.path.string() + "\n");
         return 0;

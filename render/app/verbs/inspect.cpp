@@ -139,6 +139,8 @@ class Inspect final : public Verb {
             throw UserError("--average: --pixel is of one picture, so there is no mean; leave one out");
         if (asks_.film_time && !asks_.draws())
             throw UserError("--film-time: says what a picture shows; add --png or --pixel");
+        if (asks_.film_time && *asks_.film_time < 0)
+            throw UserError("--film-time: must be at least 0 s, the film's first frame");
         for (const Assignment& set : asks_.sets)
             if (!asks_.draws() && set.key() != "run.threads")
                 throw UserError(

@@ -177,6 +177,8 @@ class Movie final : public Verb {
     int run_elsewhere(const FilmedScene& scene, const Plan& plan, Reporter& reporter) {
         if (watched_) throw UserError("--watch: shows runs of our own engine; leave out --watch or --engine");
         carry_.engine = engine_ == key_of(PeerEngine::lammps) ? PeerEngine::lammps : PeerEngine::liggghts;
+        carry_.engine_option = "--engine";
+        carry_.pack_option = "handover --pack-there";
         carry_.accept_law = !accepted_.empty();
         carry_.edinburgh = !law_.empty();
         CarriedScene carried = carry(scene, plan, carry_);

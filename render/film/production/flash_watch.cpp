@@ -12,7 +12,6 @@ namespace {
 constexpr double kChange = 0.1, kBright = 0.8;  // relative luminance
 constexpr std::size_t kMostTurns = 7;  // in a second: three flashes of two changes each, and one more change
 constexpr int kEvery = 4;              // every fourth pixel is enough for a mean
-constexpr double kTogether = 0.05;     // s, within which changes count as one
 
 // For red, green and blue: the part of the relative luminance that each value of a byte gives.
 using Parts = std::array<std::array<float, 256>, 3>;
@@ -55,30 +54,18 @@ void FlashWatch::add(const Picture& picture) {
         }
     for (std::size_t i = 0; i < places_.size(); ++i)
         if (count[i] > 0) take(places_[i], sum[i] / count[i], now);
-    for (int row = 0; row < kRows; ++row)
-        for (int column = 0; column < kColumns; ++column) {
-            Window& window = windows_[static_cast<std::size_t>(row * kColumns + column)];
-            const int direction = turning(column, row, now);
-            if (direction != 0 && direction != window.direction) {
-                window.direction = direction;
-                window.turns.push_back(now);
-            }
-            while (!window.turns.empty() && window.turns.front() <= now - 1 + 1e-9) window.turns.pop_front();
-            if (!at_ && window.turns.size() > kMostTurns) at_ = now;
-        }
+    for (int row = 0; row < kRows && !at_; ++row)
+        for (int column = 0; column < kColumns && !at_; ++column)
+            if (4 * flashing_in(column, row) >= kWide * kHigh) at_ = now;
 }
 
-// Returns 1 or -1 when a quarter of the window has just become brighter or darker, else 0.
-int FlashWatch::turning(int column, int row, double now) const {
-    int up = 0, down = 0;
+// The number of places in a window that flashed more than three times in the last second.
+int FlashWatch::flashing_in(int column, int row) const {
+    int flashing = 0;
     for (int y = row; y < row + kHigh; ++y)
-        for (int x = column; x < column + kWide; ++x) {
-            const Place& place = places_[static_cast<std::size_t>(y * kAcross + x)];
-            if (place.direction == 0 || place.turned < now - kTogether) continue;
-            ++(place.direction > 0 ? up : down);
-        }
-    const bool enough = 4 * std::max(up, down) >= kWide * kHigh;
-    return !enough ? 0 : up > down ? 1 : -1;
+        for (int x = column; x < column + kWide; ++x)
+            flashing += places_[static_cast<std::size_t>(y * kAcross + x)].turns.size() > kMostTurns;
+    return flashing;
 }
 
 // Takes the luminance of a place. A change is noted once it is large enough, and grows as long as it goes on
@@ -87,7 +74,7 @@ void FlashWatch::take(Place& place, double luminance, double now) const {
     if (frames_ == 1) place.low = place.high = luminance;
     const auto turned = [&](int direction) {
         place.direction = direction;
-        place.turned = now;
+        place.turns.push_back(now);
         place.low = place.high = luminance;
     };
     if (place.direction <= 0 && luminance - place.low >= kChange && place.low < kBright)
@@ -96,6 +83,7 @@ void FlashWatch::take(Place& place, double luminance, double now) const {
         turned(-1);
     place.low = std::min(place.low, luminance);
     place.high = std::max(place.high, luminance);
+    while (!place.turns.empty() && place.turns.front() <= now - 1 + 1e-9) place.turns.pop_front();
 }
 
 }  // namespace grainreel

@@ -51,6 +51,7 @@ RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunL
       scene_(source.scene()),
       kept_alone_(what.every.has_value()) {
     check_out(request, source.record().frames().folder());
+    check_times(what, source.record().frames(), source.film().moment(source.film().last_step()).time);
     if (kept_alone_)
         choose_kept(what);
     else

@@ -86,6 +86,10 @@ ThreadPlan plan_threads(int processors, bool film, std::int64_t grains);
 // Plans the threads of a film that has the machine for itself. wanted: 0 for as many as the machine gives.
 ThreadPlan drawing_threads(int wanted);
 
+// Throws UserError when `from` or `to` lies outside the run, which ends at `last` (s), or `from` after `to`.
+// A time may be as far outside as kept moments are apart.
+void check_times(const RenderRequest& what, const FrameArchive& run, double last);
+
 // The moments of a saved run that are drawn: those from `from` to `to`, or one in `every` of them. If they
 // are all at one phase of the drive, only those stay at which the bed looks alike. Throws UserError when
 // there is none.

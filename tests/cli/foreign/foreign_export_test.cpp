@@ -165,5 +165,28 @@ TEST_F(ForeignExport, TakesTheMomentsThatWereChosen) {
     EXPECT_FALSE(fs::exists(here / "none.csv"));
 }
 
+TEST_F(ForeignExport, RefusesATimeOutsideTheRun) {
+    const double apart = 1000 * kForeignStep, last = (kForeignFrames - 1) * apart;
+    const std::string range = fmt::format("which goes from 0 to {:.6g} s", last);
+    for (const char* option : {"--at", "--from", "--until"})
+        for (const double time : {-1.5 * apart, last + 1.5 * apart, 9.0}) {
+            const Ended ended = timed(
+                {"export", "bed.dump", "--to", "csv", fmt::format("{}={}", option, time), "--out", "no.csv"});
+            EXPECT_EQ(ended.status, 2) << option << time;
+            EXPECT_THAT(ended.err,
+                        HasSubstr(fmt::format("{}: {:.6g} s is outside the run, {}", option, time, range)));
+            EXPECT_FALSE(fs::exists(here / "no.csv"));
+        }
+    const Ended turned = timed({"export", "bed.dump", "--to", "csv", "--from", fmt::format("{}", last),
+                                "--until", "0", "--out", "no.csv"});
+    EXPECT_EQ(turned.status, 2);
+    EXPECT_THAT(turned.err, HasSubstr("is later than --until"));
+    // A run may end a little after its last frame. What is written then is said.
+    const Ended near = timed({"export", "bed.dump", "--to", "csv", "--at",
+                              fmt::format("{}", last + 0.5 * apart), "--out", "last.csv"});
+    EXPECT_EQ(near.status, 0) << near.err;
+    EXPECT_THAT(near.err, HasSubstr(fmt::format("{:.6g} s is written, the kept moment", last)));
+}
+
 }  // namespace
 }  // namespace grainreel

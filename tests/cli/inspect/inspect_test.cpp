@@ -343,6 +343,13 @@ TEST(InspectProgram, AnswersFromARunOnDisk) {
     const Ended late = run_program({"inspect", "run", "--at", "9s"}, {.folder = folder.path()});
     EXPECT_EQ(late.status, 2);
     EXPECT_THAT(late.err, HasSubstr("--at: 9 s is outside the run"));
+    const Ended timeless = run_program({"inspect", "run/final.csv", "--at", "9s"}, {.folder = folder.path()});
+    EXPECT_EQ(timeless.status, 2);
+    EXPECT_THAT(timeless.err, HasSubstr("--at: the time of run/final.csv is not known"));
+    const Ended before =
+        run_program({"inspect", "run", "--film-time=-1s", "--png", "no.png"}, {.folder = folder.path()});
+    EXPECT_EQ(before.status, 2);
+    EXPECT_THAT(before.err, HasSubstr("--film-time: must be at least 0 s"));
     EXPECT_EQ(run_program({"inspect", "run", "--grain", "7"}, {.folder = folder.path()}).status, 2);
     EXPECT_EQ(run_program({"inspect", "nowhere"}, {.folder = folder.path()}).status, 2);
 }
