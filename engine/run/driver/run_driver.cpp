@@ -252,6 +252,8 @@ void RunDriver::save_checkpoint() {
 
 void RunDriver::close(FirstFailure& failure) {
     if (!packed_ || folder_ == nullptr || !folder_->is_there()) return;
+    // A run that ends between pack() and start() has its files too, so that its checkpoint can go on.
+    if (!files_ && !goes_on_) failure.attempt([&] { open_files(); });
     failure.attempt([&] {
         if (files_ && files_->last_measures() &&
             files_->last_measures()->at("step") != static_cast<double>(simulation_.step()))

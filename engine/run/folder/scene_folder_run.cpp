@@ -115,7 +115,7 @@ bool SceneFolderRun::pack() {
     if (const std::string found = driver_.found_packing_text(); !found.empty()) desk_.listener.info(found);
     desk_.listener.detail(driver_.packing_text());
     if (const auto warning = driver_.packing_warning()) desk_.listener.warning(*warning);
-    return desk_.listener.stop_signal() == 0;
+    return true;
 }
 
 void SceneFolderRun::tell_news() {
