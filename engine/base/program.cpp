@@ -61,6 +61,11 @@ std::string build_identity() {
     return identity;
 }
 
+std::string program_call() {
+    const char* given = std::getenv("GRAINREEL_CALLED");
+    return given == nullptr || *given == '\0' ? "grainreel" : shell_word(given);
+}
+
 void check_failed(const char* condition, const char* file, int line) {
     std::fprintf(stderr, "grainreel: bug: %s:%d: %s does not hold\n", file, line, condition);
     std::abort();

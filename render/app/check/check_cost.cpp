@@ -7,6 +7,7 @@
 #include <functional>
 #include <queue>
 
+#include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/scene/text/units.hpp"
@@ -59,7 +60,9 @@ void print_elsewhere(const Scene& scene, const Plan& plan, const CostEstimate& h
     const double mine = here.packing_seconds + here.engine_seconds;
     list.line(
         "", mine > long_run && mine > much_faster * fastest
-                ? "hand it over where you have as many processors: ./movie handover (docs/guide/clusters.md)"
+                ? fmt::format(
+                      "hand it over where you have as many processors: {} handover (docs/guide/clusters.md)",
+                      program_call())
                 : fmt::format("stay here: one of our threads does the work of {:.0f} ranks", kRanksAThread));
 }
 

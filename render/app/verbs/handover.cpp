@@ -7,6 +7,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/carry.hpp"
@@ -41,7 +42,7 @@ class Handover final : public Verb {
                "job.slurm for sbatch, and\n"
                "handover.toml, which says what was changed and why. Its path goes to stdout.\n"
                "Then:   sh DIR/run.sh        or   cd DIR && sbatch job.slurm\n"
-               "        ./movie render DIR\n"
+               "        grainreel render DIR\n"
                "If the engine cannot do something, a message names each such line of the scene, and nothing "
                "is written.\n"
                "\n" +
@@ -144,7 +145,7 @@ class Handover final : public Verb {
                                   duration_text(seconds), carried.dumps.size()));
         reporter.info(fmt::format("run it:      sh {}/run.sh, or on a cluster: cd {} && sbatch job.slurm",
                                   folder.string(), folder.string()));
-        reporter.info(fmt::format("draw it:     ./movie render {}", folder.string()));
+        reporter.info(fmt::format("draw it:     {} render {}", program_call(), folder.string()));
     }
 
     fs::path scene_;

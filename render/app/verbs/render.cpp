@@ -7,6 +7,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/listener.hpp"
@@ -140,7 +141,8 @@ class Render final : public Verb {
         std::error_code ignored;
         if (std::filesystem::exists(request_.run / "scene.toml", ignored))
             throw UserError(
-                "--follow: is for files of other programs; a run of ours is shown by grainreel watch");
+                fmt::format("--follow: is for files of other programs; a run of ours is shown by: {} watch {}",
+                            program_call(), request_.run.string()));
         FollowRun film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle_},
                        reporter);
         return tell_folder(film.run(), film_);

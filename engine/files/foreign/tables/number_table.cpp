@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
@@ -118,8 +119,8 @@ void NumberTable::refuse_measures() const {
     if (has("step") && has("time_s") && has("cycles") && !has("x") && !has("x_m"))
         throw UserError(fmt::format(
             "{}: is the table of measures of a run of ours, a row a moment, and holds no grains; name "
-            "the run's folder, or draw its columns by grainreel chart",
-            lines_.file().string()));
+            "the run's folder, or make its charts by: {} report DIR --charts charts",
+            lines_.file().string(), program_call()));
 }
 
 // Finds the columns of time and step. If two columns fit, the first is taken.
