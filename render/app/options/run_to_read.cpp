@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
+#include <string_view>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_series.hpp"
+#include "engine/files/frames/open_frames.hpp"
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/import/import_run.hpp"
@@ -38,8 +40,31 @@ void bring_back_to_read(const fs::path& path, Reporter& reporter) {
     for (const std::string& line : back.news) reporter.warning(line);
 }
 
+namespace {
+
+// Throws for a file of which no run can be made. A scene is left to the reader of runs, which knows the verb
+// for it.
+void refuse_other_files(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored) || fs::is_directory(path, ignored) || path.extension() == ".toml") return;
+    const FrameReader* const reader = reader_of(path);
+    if (reader != nullptr)
+        throw UserError(
+            fmt::format("{}: is {}; give the folder of its run", path.string(), reader->about));
+    for (const FrameReader& known : frame_readers())
+        if (std::string_view(known.name) == "foreign")
+            throw UserError(fmt::format("{}: is {}; give the folder of a run, or {}", path.string(),
+                                        fs::file_size(path, ignored) == 0
+                                            ? "an empty file"
+                                            : "a file of no format that is read here",
+                                        known.about));
+}
+
+}  // namespace
+
 RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Reporter& reporter) {
     if (!is_foreign(path)) {
+        refuse_other_files(path);
         if (const std::string option = given_reading(reading); !option.empty())
             throw UserError(
                 fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",

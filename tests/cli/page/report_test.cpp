@@ -337,6 +337,9 @@ TEST_F(ReportProgram, MistakesAreOneLineAndWriteNothing) {
         EXPECT_EQ(ended.out, "");
     };
     expect_mistake({"report", "nowhere"}, "nowhere: no such folder");
+    write_text(here / "a.toml", small_scene_text);
+    expect_mistake({"report", "a.toml"},
+                   "a.toml: is a file; give the folder of a run, or run the scene: grainreel movie a.toml");
     fs::create_directory(here / "empty");
     expect_mistake({"report", "empty"}, "empty: has no scene.toml");
     run({"--no-film", "--no-report"});

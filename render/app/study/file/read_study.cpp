@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
+#include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -31,15 +33,48 @@ FilmedScene longest_scene(const Study& study) {
 
 }  // namespace
 
+namespace {
+
+void check_is_there(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw UserError(
+            fmt::format("{}: there is no such file; give the path of a study (.toml)", file.string()));
+}
+
+// Refuses a scene, in which nothing is varied.
+void check_no_scene(const Document& document, const std::filesystem::path& file) {
+    if (document.has("scene") ||
+        !(document.has("species") || document.has("container") || document.has("drive")))
+        return;
+    throw UserError(fmt::format("{}: this is a scene, not a study; run it by: {} movie {}", file.string(),
+                                program_call(), shell_word(file.string())));
+}
+
+void read_scene_of(Document& document, Study& study) {
+    const std::string name = document.required_text("scene");
+    study.scene = beside_study(study, name);
+    std::error_code ignored;
+    if (!std::filesystem::exists(study.scene, ignored))
+        document.fail("scene",
+                      fmt::format("is \"{}\", but there is no such file; its path counts from the study's "
+                                  "folder",
+                                  excerpt(name)));
+    study.scene_text = load_scene_file(study.scene);
+}
+
+}  // namespace
+
 Study read_study(const std::filesystem::path& file) {
     Study study;
     study.file = file;
+    check_is_there(file);
     study.text = load_scene_file(file);
     Document document(study.text, file.string(), study_keys());
+    check_no_scene(document, file);
     document.check_keys();
     study.title = document.text("title").value_or(file.stem().string());
-    study.scene = beside_study(study, document.required_text("scene"));
-    study.scene_text = load_scene_file(study.scene);
+    read_scene_of(document, study);
     const std::vector<std::string> sets = document.name_list("set");
     for (std::size_t i = 0; i < sets.size(); ++i)
         study.sets.push_back({sets[i], document.place(fmt::format("set[{}]", i))});
