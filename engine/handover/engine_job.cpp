@@ -12,6 +12,7 @@
 #include <sstream>
 #include <vector>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
 
@@ -105,10 +106,10 @@ RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std:
     const int processors = usable_processors();
     if (ranks < 1) throw UserError(fmt::format("--ranks {}: must be at least 1", ranks));
     if (ranks > processors)
-        throw UserError(fmt::format(
-            "--ranks {}: there are {} processors here; give --ranks {}, or hand the scene over to "
-            "a cluster (`handover`)",
-            ranks, processors, processors));
+        throw UserError(
+            fmt::format("--ranks {}: usable here: {}; give --ranks {}, or hand the scene over to "
+                        "a cluster (`handover`)",
+                        ranks, counted(processors, "processor"), processors));
     const fs::path mpirun = program_named("mpirun");
     if (mpirun.empty())
         throw UserError(fmt::format(

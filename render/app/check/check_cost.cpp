@@ -7,6 +7,7 @@
 #include <functional>
 #include <queue>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/handover/handover_folder.hpp"
@@ -67,7 +68,7 @@ void print_elsewhere(const Scene& scene, const Plan& plan, const CostEstimate& h
 }
 
 std::string threads_text(int threads) {
-    return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
+    return counted(threads, "thread");
 }
 
 }  // namespace
@@ -82,8 +83,8 @@ void print_files(const FilmedScene& scene, const Plan& plan, const std::vector<S
                  Listing& list) {
     const std::int64_t pictures = frames_of(film), held = held_frames(scene.film);
     const DiskEstimate disk = estimate_disk(scene, plan, pictures + held);
-    list.line("film", fmt::format("{}x{}, {:.4g} frames/s, {} frames, plays for {}", scene.film.width,
-                                  scene.film.height, scene.film.rate, pictures + held,
+    list.line("film", fmt::format("{}x{}, {:.4g} frames/s, {}, plays for {}", scene.film.width,
+                                  scene.film.height, scene.film.rate, counted(pictures + held, "frame"),
                                   span_text(static_cast<double>(pictures + held) / scene.film.rate)));
     if (held > 0)
         list.line("", fmt::format("{} of that it stands still for captions",
@@ -106,9 +107,14 @@ void print_files(const FilmedScene& scene, const Plan& plan, const std::vector<S
                               grouped(disk.measures_rows),
                               interval_text(plan.measures_periods, plan.measures_every, plan)));
     if (disk.checkpoints + disk.film_moments > 0)
-        list.line("",
-                  fmt::format("so that any moment comes back: checkpoints up to {}, moments of the film {}",
-                              data_size_text(disk.checkpoints), data_size_text(disk.film_moments)));
+        list.line("", fmt::format("so that any moment comes back: {}{}{}",
+                                  disk.checkpoints > 0
+                                      ? fmt::format("checkpoints up to {}", data_size_text(disk.checkpoints))
+                                      : "",
+                                  disk.checkpoints > 0 && disk.film_moments > 0 ? ", " : "",
+                                  disk.film_moments > 0 ? fmt::format("moments of the film {}",
+                                                                      data_size_text(disk.film_moments))
+                                                        : ""));
 }
 
 void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,

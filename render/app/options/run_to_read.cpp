@@ -34,9 +34,9 @@ fs::path folder_around(const fs::path& path) {
 
 void bring_back_to_read(const fs::path& path, Reporter& reporter) {
     if (!is_handover(path)) return;
-    const ShareWatcher watcher(reporter, Progress::Stage::paging);
+    const ShareWatcher watcher(reporter, Progress::Stage::reading);
     const BroughtBack back =
-        bring_back(path, build_info::version, [&](double done) { return watcher("reading the dump", done); });
+        bring_back(path, build_info::version, [&](double done) { return watcher("the dump", done); });
     for (const std::string& line : back.news) reporter.warning(line);
 }
 
@@ -76,8 +76,8 @@ RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Repor
     request.from = path;
     request.reading = reading;
     request.program_version = fmt::format("{} ({})", build_info::version, build_info::commit);
-    const ShareWatcher watcher(reporter, Progress::Stage::paging);
-    request.watcher = [&](double done) { return watcher("reading " + path.filename().string(), done); };
+    const ShareWatcher watcher(reporter, Progress::Stage::reading);
+    request.watcher = [&](double done) { return watcher(path.filename().string(), done); };
     const ImportedRun run = cached_import(request);
     for (const std::string& line : run.news) reporter.info(line);
     return {run.folder, folder_around(path), true};

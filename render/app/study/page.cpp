@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "render/app/study/results/points.hpp"
 #include "render/page/embed.hpp"
 
@@ -37,8 +38,8 @@ std::size_t count_of(const std::vector<MemberResult>& results, State state) {
 }
 
 std::string summary(const Study& study, const std::vector<MemberResult>& results) {
-    std::string text = fmt::format("{} of {} members of {} are complete", count_of(results, State::complete),
-                                   results.size(), study.scene.filename().string());
+    std::string text = fmt::format("{} of {} of {} complete", count_of(results, State::complete),
+                                   counted(results.size(), "member"), study.scene.filename().string());
     if (const std::size_t failed = count_of(results, State::failed); failed > 0)
         text += fmt::format(", {} failed", failed);
     const std::size_t left = count_of(results, State::missing) + count_of(results, State::incomplete);

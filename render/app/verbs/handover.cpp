@@ -6,6 +6,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
@@ -140,9 +141,9 @@ class Handover final : public Verb {
         const double seconds =
             peer_seconds(carried.engine, carried.frame, carried.grains(),
                          carried.last - carried.first + carried.packing_steps, carried.ranks);
-        reporter.info(fmt::format("{} for {} on {} rank{}, about {} there; {} dumps", folder.string(),
-                                  name_of(carried.engine), carried.ranks, carried.ranks == 1 ? "" : "s",
-                                  duration_text(seconds), carried.dumps.size()));
+        reporter.info(fmt::format("{} for {} on {}, about {} there; {}", folder.string(),
+                                  name_of(carried.engine), counted(carried.ranks, "rank"),
+                                  duration_text(seconds), counted(carried.dumps.size(), "dump")));
         reporter.info(fmt::format("run it:      sh {}/run.sh, or on a cluster: cd {} && sbatch job.slurm",
                                   folder.string(), folder.string()));
         reporter.info(fmt::format("draw it:     {} render {}", program_call(), folder.string()));

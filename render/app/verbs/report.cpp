@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/saved_scene.hpp"
@@ -154,8 +155,8 @@ class Report final : public Verb {
   private:
     int draw_charts(Reporter& reporter) const {
         const std::vector<fs::path> files = draw_run_charts(runs_, measures_, paper_.paper, *paper_.folder);
-        reporter.info(
-            fmt::format("wrote {} files of charts, {:g} mm wide", files.size(), paper_.paper.width_mm));
+        reporter.info(fmt::format("wrote {} of charts, {:g} mm wide", counted(files.size(), "file"),
+                                  paper_.paper.width_mm));
         print_exact(paper_.folder->string() + "\n");
         return 0;
     }

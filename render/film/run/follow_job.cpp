@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
@@ -201,7 +202,7 @@ void FollowJob::side_work_closed() {
 }
 
 std::string FollowJob::stopped_text() const {
-    return fmt::format("stopped after {} frames", film_.result().frames);
+    return fmt::format("stopped after {}", counted(film_.result().frames, "frame"));
 }
 
 void FollowJob::report_written() {
