@@ -78,7 +78,7 @@ std::string settings_table(const Study& study, const std::vector<Member>& member
     for (const Variation& variation : study.variations)
         text += fmt::format("<th>{}</th>", html_text(variation.label));
     for (const StudyMeasure& measure : study.measures)
-        text += fmt::format("<th>{}</th>", html_text(measure.label));
+        text += fmt::format("<th>{}</th>", html_text(measure.title()));
     text += "<th>values</th></tr>\n";
     for (const std::size_t m : first_members(members)) {
         text += "<tr>";

@@ -45,15 +45,12 @@ void read_threshold(Document& document, const std::string& table, const MeasureC
     reduction.threshold = *document.quantity(path, column.dimension);
 }
 
-// The label on paper: "kinetic energy, slope (J/s)".
-std::string printed_label(const MeasureColumn& column, const std::string& how, Reduction::Kind kind) {
+// The unit of what a column is reduced to; empty for a pure number.
+std::string unit_of(const MeasureColumn& column, Reduction::Kind kind) {
     const std::string of_column = text_of(column.dimension).unit;
-    const bool is_time = kind == Reduction::Kind::crossing || kind == Reduction::Kind::first_passage;
-    std::string unit = of_column == "1" ? "" : of_column;
-    if (is_time) unit = "s";
-    if (kind == Reduction::Kind::slope) unit = of_column + "/s";
-    const std::string name = fmt::format("{}, {}", column.label, how);
-    return unit.empty() ? name : fmt::format("{} ({})", name, unit);
+    if (kind == Reduction::Kind::crossing || kind == Reduction::Kind::first_passage) return "s";
+    if (kind == Reduction::Kind::slope) return of_column + "/s";
+    return of_column == "1" ? "" : of_column;
 }
 
 }  // namespace
@@ -72,8 +69,9 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
     for (const auto& [word, kind] : reduction_words)
         if (word == how) measure.reduction.kind = kind;
     measure.name = document.text(table + ".name").value_or(name + "_" + how);
-    const std::optional<std::string> label = document.text(table + ".label");
-    measure.label = label.value_or(fmt::format("{} ({})", column->label, how));
+    measure.label = document.text(table + ".label").value_or(fmt::format("{}, {}", column->label, how));
+    measure.unit = unit_of(*column, measure.reduction.kind);
+    measure.place = document.place(table + ".column");
     for (const StudyMeasure& other : study.measures)
         if (other.name == measure.name)
             document.fail(document.has(table + ".name") ? table + ".name" : table + ".column",
@@ -81,7 +79,6 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
                                       excerpt(measure.name)));
     read_window(document, scene, table, measure.reduction);
     read_threshold(document, table, *column, measure.reduction);
-    if (!label) measure.printed = printed_label(*column, how, measure.reduction.kind);
     study.measures.push_back(std::move(measure));
 }
 
