@@ -93,10 +93,13 @@ class StudyVerb final : public Verb {
             references.push_back(chart.reference ? read_reference(*chart.reference)
                                                  : std::vector<ReferencePoint>());
         StudyEstimate estimate(request_.jobs, request_.films, dry_);
+        EmptyColumns empty(study);
         members_ = make_members(study, [&](const FilmedScene& scene, const Plan& plan) {
             estimate.add_setting(scene, plan);
+            empty.add_setting(scene);
             if (shortest_packing_) sharing_.add_setting(scene, plan);
         });
+        empty.check();
         folder_.path =
             std::filesystem::absolute(out_.value_or(output_base() / study.file.stem())).lexically_normal();
         check_folder();

@@ -275,6 +275,25 @@ TEST_F(StudyVerb, MistakesWriteNothing) {
     EXPECT_THAT(taken.err, HasSubstr("holds something that is no study"));
 }
 
+// A column that stays empty in all settings is refused before anything runs; one that has values in some of
+// them is not.
+TEST_F(StudyVerb, MeasuresNoColumnThatStaysEmpty) {
+    const std::string lacey = replaced(four_members, "column = \"kinetic\"", "column = \"lacey\"");
+    const std::string one = "species=[{name=\"all\", count=20, diameter=\"4 mm\", density=2500}]";
+    const auto said = [&](const std::string& text) {
+        return run_program(words(write(text), {"--dry-run"}), {});
+    };
+    EXPECT_EQ(said(lacey).status, 0);
+    const Ended empty = said(replaced(lacey, "set = [", "set = ['" + one + "', "));
+    EXPECT_EQ(empty.status, 2);
+    EXPECT_THAT(empty.err,
+                HasSubstr("study.toml:9:1: 'lacey' has no value here: it compares two species, and "
+                          "the scene has one; measure another column"));
+    const std::string variants = "[[variant]]\nname = \"one\"\nset = ['" + one +
+                                 "']\n[[variant]]\nname = \"two\"\nset = []\n[[measure]]";
+    EXPECT_EQ(said(replaced(lacey, "[[measure]]", variants)).status, 0);
+}
+
 TEST_F(StudyVerb, AStudyIsNoSceneAndASceneNoStudy) {
     const Program::Setting here{folder_.path(), {}};
     write(four_members);
