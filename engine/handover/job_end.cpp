@@ -1,6 +1,7 @@
 #include "engine/handover/job_end.hpp"
 
 #include <fmt/format.h>
+#include <csignal>
 #include <fstream>
 
 #include "engine/handover/decks.hpp"
@@ -42,8 +43,10 @@ JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
         return end;
     }
     // Where a rank was killed, mpirun asks the others to end.
-    if (status <= 128 && says(folder / output_name(facts.engine), "SIGINT/SIGTERM caught")) {
-        end.failure = fmt::format("{} was asked to end by a signal", name_of(facts.engine));
+    const bool asked = status == 128 + SIGTERM || status == 128 + SIGINT || status == 128 + SIGHUP;
+    if (asked || (status <= 128 && says(folder / output_name(facts.engine), "SIGINT/SIGTERM caught"))) {
+        end.failure = fmt::format("{} was asked to end by a signal (Ctrl-C, scancel or a time limit)",
+                                  name_of(facts.engine));
         return end;
     }
     end.failure = status > 128 ? fmt::format("{} was ended by signal {}", name_of(facts.engine), status - 128)

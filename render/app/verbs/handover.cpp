@@ -136,6 +136,10 @@ class Handover final : public Verb {
         for (const CarryNote& note : carried.changes)
             reporter.info(
                 fmt::format("{}{}{}: {}", note.where, note.where.empty() ? "" : ": ", note.what, note.why));
+        if (carried.frame == RunFrame::container)
+            reporter.info(
+                "the deck and its dump are in the container's frame, where walls stand still and grains feel "
+                "minus its acceleration; what reads the folder here adds the motion again");
         if (!start.settled)
             reporter.warning("the grains had not come to rest when the time limit of settling ended");
         const double seconds =

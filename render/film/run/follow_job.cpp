@@ -62,9 +62,12 @@ FollowJob::FollowJob(const FilmRequest& request, const FollowRequest& what, RunL
 void FollowJob::wait_for_first() {
     while (!back_->take_next()) {
         const JobEnd job = job_end(what_.from, facts_);
-        if (job.ended && !back_->take_next())
-            throw UserError(fmt::format("{}: has no whole moment; {}", facts_.dump.string(),
-                                        job.failure.empty() ? "the job has ended" : job.failure));
+        if (job.ended && !back_->take_next()) {
+            if (!job.failure.empty())
+                throw RunError(fmt::format("{}: has no whole moment; {}", facts_.dump.string(), job.failure));
+            throw UserError(
+                fmt::format("{}: has no whole moment, and the job has ended", facts_.dump.string()));
+        }
         if (job.ended) break;
         if (idle_.seconds() >= what_.idle || stopped())
             throw UserError(fmt::format(
