@@ -13,6 +13,9 @@ inline constexpr const char* kFilmMoments = "film_moments.nc";
 // in that of contacts.nc, whose `frame` counts the frames of the former.
 inline constexpr const char *kKeyMoments = "key_moments.nc", *kKeyContacts = "key_contacts.nc";
 
+// The page of a run.
+inline constexpr const char* kPageName = "report.html";
+
 // The folders in which FormerRun keeps a run as it was, and prepares to do so.
 inline constexpr const char *kFormerRun = ".before", *kFormerRunPart = ".before.part";
 

@@ -13,6 +13,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/check/print_plan.hpp"
@@ -171,7 +172,7 @@ class Report final : public Verb {
                 fmt::format("--out {}: there is no folder {}; make it first", out.string(), folder.string()));
         if (fs::is_directory(out, ignored))
             throw UserError(fmt::format("--out {}: is a folder; name a file, as in {}", out.string(),
-                                        (out / "report.html").string()));
+                                        (out / kPageName).string()));
         if (out.extension() != ".html")
             throw UserError(fmt::format("--out {}: a page's name ends in .html", out.string()));
     }
