@@ -100,11 +100,11 @@ void print_files(const FilmedScene& scene, const Plan& plan, const std::vector<S
                       ? fmt::format(", {} at most", data_size_text(static_cast<double>(*scene.film.max_size)))
                       : ""));
     if (disk.trajectory_frames > 0)
-        list.line("", fmt::format("trajectory {}, {} frames, one every {}", data_size_text(disk.trajectory),
-                                  grouped(disk.trajectory_frames),
+        list.line("", fmt::format("trajectory {}, {} frame{}, one every {}", data_size_text(disk.trajectory),
+                                  grouped(disk.trajectory_frames), disk.trajectory_frames == 1 ? "" : "s",
                                   interval_text(plan.trajectory_periods, plan.trajectory_every, plan)));
-    list.line("", fmt::format("measures {}, {} rows, one every {}", data_size_text(disk.measures),
-                              grouped(disk.measures_rows),
+    list.line("", fmt::format("measures {}, {} row{}, one every {}", data_size_text(disk.measures),
+                              grouped(disk.measures_rows), disk.measures_rows == 1 ? "" : "s",
                               interval_text(plan.measures_periods, plan.measures_every, plan)));
     if (disk.checkpoints + disk.film_moments > 0)
         list.line("", fmt::format("so that any moment comes back: {}{}{}",

@@ -221,7 +221,7 @@ TEST_F(ReportProgram, SaysWhichFilesLackOrAreDamaged) {
     const std::string rows = text_of(here / "run/measures.csv");
     const std::size_t second = rows.find('\n', rows.find('\n') + 1) + 1;
     EXPECT_THAT(damaged("measures.csv", rows.substr(0, second) + "x\n" + rows.substr(second)),
-                HasSubstr("warning: copy/measures.csv:3: has 1 numbers, but there are "));
+                HasSubstr("warning: copy/measures.csv:3: has 1 number, but there are "));
     EXPECT_THAT(damaged("measures.csv", rows.substr(0, second)),
                 testing::ContainsRegex("warning: copy/measures.csv: has 1 of the [0-9]+ rows"));
     EXPECT_THAT(damaged("measures.csv", "step,cycles\n1,2\n"),

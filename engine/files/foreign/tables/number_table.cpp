@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
 #include "engine/base/text.hpp"
@@ -158,8 +159,8 @@ bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
         return false;
     }
     if (cells_.size() != layout_.names.size())
-        lines_.fault(
-            fmt::format("this row has {} columns in place of {}", cells_.size(), layout_.names.size()));
+        lines_.fault(fmt::format("this row has {} in place of {}", counted(cells_.size(), "column"),
+                                 layout_.names.size()));
     last_ = clock ? clock_of(*clock) : 0.0;
     FrameRows& frame = frames[last_];
     RawMoment& moment = frame.moment;
