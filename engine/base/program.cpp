@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 
