@@ -331,8 +331,10 @@ TEST_F(ResumedRun, OneThatWasStoppedJustAfterPackingGoesOn) {
     request.out = here / "run";
     request.page = page_of_ended_run();
     StoppedAtOnce listener;
-    MovieRun stopped(request, listener, made, plan_with_film(made));
-    EXPECT_EQ(stopped.run().exit_status, 130);
+    {
+        MovieRun stopped(request, listener, made, plan_with_film(made));
+        EXPECT_EQ(stopped.run().exit_status, 130);
+    }
     EXPECT_EQ(record("run")["status"], "interrupted");
     EXPECT_EQ(record("run")["engine"]["steps"], 0);
     ASSERT_TRUE(fs::exists(here / "run/checkpoint.grs"));
