@@ -127,11 +127,34 @@ prepare() {  # $1: ON with tests, OFF without them; then yes or no: may packages
     fi
 }
 
+seconds_a_step=5  # of one processor
+
+# Reads what ninja says where no terminal is: tells in a line what there is to build and about how long it takes,
+# in another that it is done, and passes on all that is no progress: warnings and errors.
+tell_build() {
+    local line steps='' failed='' began=$SECONDS processors
+    processors=$(nproc)
+    while IFS= read -r line; do
+        case $line in
+            *'] Re-checking '* | *'] Re-running '* | '-- '* | 'ninja: Entering '* | 'ninja: no work to do.') continue ;;
+            FAILED:*) failed=yes ;;
+        esac
+        if [[ ! $line =~ ^\[[0-9]+/([0-9]+)\]\  ]]; then
+            say "$line"
+        elif [[ -z $steps ]]; then
+            steps=${BASH_REMATCH[1]}
+            say "Building in $steps $(((steps == 1)) && echo step || echo steps); takes about" \
+                "$((steps * seconds_a_step / processors / 60 + 1)) min."
+        fi
+    done
+    [[ -z $steps || -n $failed ]] || say "Built in $((SECONDS - began)) s."
+}
+
 compile() {  # ninja's targets. Two scripts at once take turns.
     [[ -x $build/grainreel ]] || say "Building; the first time takes a few minutes."
     if [[ -t 2 ]]; then
         flock "$build" ninja -C "$build" "$@" >&2 || exit 1
     else
-        flock "$build" ninja --quiet -C "$build" "$@" | sed '/no work to do/d' >&2 || exit 1
+        NINJA_STATUS='[%f/%t] ' flock "$build" ninja -C "$build" "$@" | tell_build || exit 1
     fi
 }

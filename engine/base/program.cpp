@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 
@@ -59,6 +60,11 @@ std::string build_identity() {
     if (identity.empty() && ::stat("/proc/self/exe", &facts) == 0)
         identity = fmt::format("{} {}.{}", facts.st_size, facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec);
     return identity;
+}
+
+std::string program_call() {
+    const char* given = std::getenv("GRAINREEL_CALLED");
+    return given == nullptr || *given == '\0' ? "grainreel" : shell_word(given);
 }
 
 void check_failed(const char* condition, const char* file, int line) {

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
@@ -44,7 +45,8 @@ std::string fault_of(const std::vector<std::string>& cells, const std::vector<st
                      std::vector<double>& row) {
     row.clear();
     if (cells.size() != columns.size())
-        return fmt::format("has {} numbers, but there are {} columns", cells.size(), columns.size());
+        return fmt::format("has {}, but there are {} columns", counted(cells.size(), "number"),
+                           columns.size());
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const std::optional<double> value = number_of(cells[k]);
         if (!value)

@@ -52,7 +52,7 @@ constexpr std::array<std::string_view, 35> files_of_runs{".lock",
                                                          "key_contacts.nc",
                                                          "film_times.csv",
                                                          ".film_times.csv.part",
-                                                         "report.html",
+                                                         kPageName,
                                                          ".report.html.part"};
 
 // movie.work holds what a film needs while it is made.

@@ -13,6 +13,9 @@ inline constexpr const char* kFilmMoments = "film_moments.nc";
 // that of contacts.nc. There `frame` counts the frames of key_moments.nc.
 inline constexpr const char *kKeyMoments = "key_moments.nc", *kKeyContacts = "key_contacts.nc";
 
+// The page of a run.
+inline constexpr const char* kPageName = "report.html";
+
 // FormerRun keeps a run as it was in .before. While it prepares or removes that folder, it is called
 // .before.part.
 inline constexpr const char *kFormerRun = ".before", *kFormerRunPart = ".before.part";

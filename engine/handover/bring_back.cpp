@@ -77,6 +77,25 @@ std::unique_ptr<ReturningFolder> returning(const fs::path& folder,
     }
 }
 
+// Throws where nothing of the run can be shown: RunError with the reason if its job has failed, else
+// UserError.
+[[noreturn]] void fail_without_moment(const fs::path& folder, const HandoverFacts& facts,
+                                      const std::string& what, const std::string& advice) {
+    const JobEnd job = job_end(folder, facts);
+    if (!job.failure.empty())
+        throw RunError(fmt::format("{}: {}; {}", facts.dump.string(), what, job.failure));
+    throw UserError(fmt::format("{}: {}{}", facts.dump.string(), what, advice));
+}
+
+// What the user should know of a run that was brought back before.
+std::vector<std::string> news_of_former(const fs::path& folder, const HandoverFacts& facts) {
+    const TrajectoryReader former(folder / "trajectory.nc");
+    if (former.frames() == 0) return {};
+    const Frame last = former.read_moment(former.frames() - 1);
+    if (last.step >= facts.last) return {};
+    return {came_so_far(folder, facts, last.time, static_cast<double>(facts.last) * facts.step)};
+}
+
 // Reads the whole dump. Returns false if the watcher does.
 bool read_back(ReturnedRun& run, const HandoverFacts& facts, const std::function<bool(double)>& watcher,
                BroughtBack& back) {
@@ -99,10 +118,14 @@ BroughtBack bring_back(const fs::path& folder, const std::string& version,
     const HandoverFacts facts = read_handover(folder);
     std::error_code missing;
     if (!fs::is_regular_file(facts.dump, missing))
-        throw UserError(fmt::format("{}: is not there, so {} has not run yet; run it: sh {}/run.sh",
-                                    facts.dump.string(), name_of(facts.engine), folder.string()));
+        fail_without_moment(folder, facts, "is not there",
+                            fmt::format(", so {} has not run yet; run it: sh {}/run.sh",
+                                        name_of(facts.engine), folder.string()));
     BroughtBack back;
-    if (is_newer(folder / "trajectory.nc", facts.dump)) return back;
+    if (is_newer(folder / "trajectory.nc", facts.dump)) {
+        back.news = news_of_former(folder, facts);
+        return back;
+    }
     const Scene scene = read_scene(folder / "scene.toml", {}, measurable_in);
     const Plan plan = make_plan(scene);
     const std::unique_ptr<ReturningFolder> made = returning(folder, watcher);
@@ -110,8 +133,7 @@ BroughtBack bring_back(const fs::path& folder, const std::string& version,
     {
         ReturnedRun run(made->path(), scene, plan, facts, version);
         if (!read_back(run, facts, watcher, back)) return back;
-        if (run.last() == nullptr)
-            throw UserError(fmt::format("{}: has no whole frame so far", facts.dump.string()));
+        if (run.last() == nullptr) fail_without_moment(folder, facts, "has no whole moment", " so far");
         back.frames = run.frames();
         back.until = run.last()->time;
         back.whole = run.last()->step >= facts.last;

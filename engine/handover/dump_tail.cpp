@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string_view>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/decimal.hpp"
 #include "engine/handover/decks.hpp"
@@ -227,8 +228,8 @@ GrainCount::Change GrainCount::compare(const Frame* before, const Frame& now) co
     if (before == nullptr) {
         const std::int64_t wanted = scene_.grains_at_start();
         if (static_cast<std::int64_t>(now.size()) < wanted)
-            throw RunError(fmt::format("{}: step {}: has {} grains, but the scene begins with {}", file_,
-                                       now.step, now.size(), wanted));
+            throw RunError(fmt::format("{}: step {}: has {}, but the scene begins with {}", file_, now.step,
+                                       counted(now.size(), "grain"), wanted));
         return change;
     }
     std::size_t k = 0;

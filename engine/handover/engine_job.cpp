@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include <sstream>
 #include <vector>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
 #include "engine/base/text.hpp"
@@ -107,10 +109,10 @@ RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std:
                         "there are as many",
                         ranks, processors));
     if (ranks > processors)
-        throw UserError(fmt::format(
-            "--ranks {}: there are {} processors here; give --ranks {}, or hand the scene over to "
-            "a cluster (`handover`)",
-            ranks, processors, processors));
+        throw UserError(
+            fmt::format("--ranks {}: usable here: {}; give --ranks {}, or hand the scene over to "
+                        "a cluster (`handover`)",
+                        ranks, counted(processors, "processor"), processors));
     const fs::path mpirun = program_named("mpirun");
     if (mpirun.empty())
         throw UserError(
@@ -255,8 +257,10 @@ JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
         return end;
     }
     // Where a rank was killed, mpirun asks the others to end.
-    if (status <= 128 && says(folder / output_name(facts.engine), "SIGINT/SIGTERM caught")) {
-        end.failure = fmt::format("{} was asked to end by a signal", name_of(facts.engine));
+    const bool asked = status == 128 + SIGTERM || status == 128 + SIGINT || status == 128 + SIGHUP;
+    if (asked || (status <= 128 && says(folder / output_name(facts.engine), "SIGINT/SIGTERM caught"))) {
+        end.failure = fmt::format("{} was asked to end by a signal (Ctrl-C, scancel or a time limit)",
+                                  name_of(facts.engine));
         return end;
     }
     end.failure = ended_with(facts.engine, status, folder / output_name(facts.engine));

@@ -217,17 +217,22 @@ command -v "$engine" > /dev/null || {{
 if [ "$(id -u)" = 0 ]; then  # Open MPI refuses root otherwise
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
-rm -f {status}
-{restart}mpirun -np "$ranks" "$engine" -in {deck} -log log.{key} "$@" > out.{key} 2>&1 < /dev/null &
+{restart}rm -f {status}
+mpirun -np "$ranks" "$engine" -in {deck} -log log.{key} "$@" > out.{key} 2>&1 < /dev/null &
 job=$!
-trap 'kill "$job" 2> /dev/null' HUP INT TERM  # the ranks end with this script
+signal=0  # the one that this script gets; the ranks end with it
+trap 'signal=1; kill "$job" 2> /dev/null' HUP
+trap 'signal=2; kill "$job" 2> /dev/null' INT
+trap 'signal=15; kill "$job" 2> /dev/null' TERM
 wait "$job"
 status=$?
 while kill -0 "$job" 2> /dev/null; do  # a signal ended the wait
     wait "$job"
     status=$?
 done
+[ "$signal" = 0 ] || [ "$status" = 0 ] || status=$((128 + signal))
 {forced}echo "$status" > {status}  # so that whoever follows the dump knows
+[ "$signal" = 0 ] || {{ echo "run.sh: a signal ended the job; go on with: sh run.sh --continue" >&2; exit "$status"; }}
 [ "$status" = 0 ] || {{ echo "run.sh: {name} ended with $status; the end of out.{key}:" >&2; tail -n 5 out.{key} >&2; }}
 exit $status
 )sh";
@@ -241,7 +246,7 @@ esac
 
 constexpr const char* restart_text = R"sh(if [ "$1" = --continue ]; then
     step=$(ls {restart}.* 2>/dev/null | sed 's/.*\.//' | sort -n | tail -n 1)
-    [ -n "$step" ] || {{ echo "run.sh: there is no restart file to go on from" >&2; exit 2; }}
+    [ -n "$step" ] || {{ echo "run.sh: there is no restart file to go on from; begin anew with: sh run.sh" >&2; exit 2; }}
     # What the dump has of later steps comes again; its last frame may have been cut off.
     size=$(LC_ALL=C awk -v last="$step" -v size="$(wc -c < {dump})" '
         {{ bytes += length($0) + 1 }}

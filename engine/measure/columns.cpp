@@ -15,6 +15,7 @@ template <class T>
 ObserverColumns columns_of() {
     ObserverColumns known{nullptr, &T::columns};
     if constexpr (requires { T::instrument; }) known.instrument = T::instrument;
+    if constexpr (requires { &T::why_empty; }) known.why_empty = &T::why_empty;
     return known;
 }
 
@@ -71,6 +72,14 @@ Measurable measurable_in(const Scene& scene) {
     for (const ObserverColumns& entry : observer_columns())
         if (entry.instrument != nullptr) all.instruments.push_back(entry.instrument);
     return all;
+}
+
+std::string why_column_is_empty(const Scene& scene, const std::string& column) {
+    for (const ObserverColumns& entry : observer_columns())
+        for (const ColumnGroup& group : entry.groups(scene))
+            for (const MeasureColumn& one : group.columns)
+                if (one.name == column && entry.why_empty != nullptr) return entry.why_empty(scene, column);
+    return "";
 }
 
 std::string column_table_markdown() {

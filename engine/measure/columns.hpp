@@ -13,6 +13,8 @@ namespace grainreel {
 struct ObserverColumns {
     const char* instrument;  // instrument that a scene asks for by name, or null
     std::vector<ColumnGroup> (*groups)(const Scene& scene);
+    // Why a column has no value at any moment of a scene; empty where it may have one. Null: it always may.
+    std::string (*why_empty)(const Scene& scene, const std::string& column) = nullptr;
 };
 // All observers in the order of their columns.
 const std::vector<ObserverColumns>& observer_columns();
@@ -21,6 +23,10 @@ const std::vector<ObserverColumns>& observer_columns();
 std::vector<MeasureColumn> measure_columns(const Scene& scene);
 // The columns of all observers and the names of all instruments. The reader of a scene looks names up in it.
 Measurable measurable_in(const Scene& scene);
+
+// Why a column has no value in any row of the scene's measures.csv: "it compares two species, and there is
+// one". Empty where it may have values.
+std::string why_column_is_empty(const Scene& scene, const std::string& column);
 
 // The table of all columns in Markdown, as in docs/reference/scenes.md.
 std::string column_table_markdown();

@@ -6,8 +6,11 @@
 // which names its columns without a state, for the reader of scenes. An observer that is made only if the
 // scene asks for it (output.instruments or Scene::wishes) also has
 //     static constexpr const char* instrument = "walls";
-// and one that has a key of its own in the scene has
+// one that has a key of its own in the scene has
 //     static bool wanted(const Scene& scene);
+// and one whose columns stay empty in some scenes has
+//     static std::string why_empty(const Scene& scene, const std::string& column);
+// which gives the reason, or nothing where the column may have values.
 #pragma once
 
 #include <cstdint>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 
 namespace grainreel {
@@ -121,7 +122,7 @@ void MeanAnswer::add_list(AnswerTable& all, const AnswerTable& one, double time)
 AnswerTable MeanAnswer::mean_of(const Table& table) const {
     AnswerTable mean = table.form;
     if (!mean.mean_title.empty()) mean.title = mean.mean_title;
-    mean.title += fmt::format(", mean over {} moments", moments_);
+    mean.title += fmt::format(", mean over {}", counted(moments_, "moment"));
     for (const auto& [key, sums] : table.rows) {
         std::vector<AnswerCell> row;
         for (std::size_t k = 0; k < mean.columns.size(); ++k) {
@@ -148,7 +149,7 @@ Answer MeanAnswer::mean() const {
             continue;
         }
         answer.tables.push_back(table.form);
-        answer.tables.back().title += fmt::format(", of {} moments", moments_);
+        answer.tables.back().title += fmt::format(", of {}", counted(moments_, "moment"));
     }
     return answer;
 }

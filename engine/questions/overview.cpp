@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/measure/columns.hpp"
@@ -283,9 +284,10 @@ Answer overview_of(const Snapshot& s) {
         out += outside(s, i);
         odd += !s.frame.position[i].allFinite() || (s.velocities && !s.frame.velocity[i].allFinite());
     }
-    if (out > 0) answer.notes.push_back(fmt::format("{} grains are outside the container", out));
+    if (out > 0) answer.notes.push_back(fmt::format("outside the container: {}", counted(out, "grain")));
     if (odd > 0)
-        answer.notes.push_back(fmt::format("{} grains have a place or a velocity that is no number", odd));
+        answer.notes.push_back(
+            fmt::format("with a place or a velocity that is no number: {}", counted(odd, "grain")));
     if (!s.contacts)
         answer.notes.emplace_back(
             "contacts of a kept moment are not known; --grain, --wall and --largest-overlap bring it back");

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/questions/grain_columns.hpp"
@@ -168,7 +169,8 @@ Answer profile_answer(const Snapshot& s, const std::string& along) {
     for (std::size_t k = 0; k < all.bins.size(); ++k) table.rows.push_back(row_of(all, k));
     if (upwards) add_solid_fraction(s, all, along == "height", table);
     Answer answer{{std::move(table)}, {}};
-    if (all.left_out > 0) answer.notes.push_back(fmt::format("{} grains lie outside the bins", all.left_out));
+    if (all.left_out > 0)
+        answer.notes.push_back(fmt::format("outside the bins: {}", counted(all.left_out, "grain")));
     return answer;
 }
 

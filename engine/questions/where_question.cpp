@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/questions/expression.hpp"
@@ -243,7 +244,8 @@ Answer series_of(MomentFinder& finder, const AskedRun& run, const SeriesRequest&
     }
     if (request.every)
         answer.notes.emplace_back("of each time the kept moment that is nearest; nothing was brought back");
-    if (damaged > 0) answer.notes.push_back(fmt::format("{} moments are damaged and left out", damaged));
+    if (damaged > 0)
+        answer.notes.push_back(fmt::format("damaged and left out: {}", counted(damaged, "moment")));
     return answer;
 }
 

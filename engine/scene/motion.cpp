@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/plain_file.hpp"
@@ -197,8 +198,8 @@ class PathReader {
     void take_row(std::string_view line) {
         const std::vector<std::string_view> cells = cells_of(line);
         if (cells.size() != width_)
-            fail(fmt::format("has {} values, but line {} names {} columns; is the file cut off?",
-                             cells.size(), header_, width_));
+            fail(fmt::format("has {}, but line {} names {} columns; is the file cut off?",
+                             counted(cells.size(), "value"), header_, width_));
         const double time = number(cells, of_time);
         if (!rows.times.empty() && !(time > rows.times.back()))
             fail(

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/drive_keys.hpp"
@@ -100,6 +101,15 @@ void check_name(const std::filesystem::path& file) {
                                     file.string(), *control));
 }
 
+// Refuses a study, which names a scene and is no scene itself.
+void check_no_study(const Document& document, const std::filesystem::path& file) {
+    const bool varies =
+        document.has("vary") || document.has("variant") || document.has("measure") || document.has("seeds");
+    if (varies && document.is_text("scene"))
+        fail(file, fmt::format("this is a study, not a scene; run it by: {} study {}", program_call(),
+                               shell_word(file.string())));
+}
+
 void check_instruments(const Document& document, const Scene& scene) {
     const std::vector<std::string>& known = scene.measurable.instruments;
     for (const std::string& name : scene.output.instruments)
@@ -136,6 +146,7 @@ void read_scene_into(Scene& scene, const NamedText& from, const Assignments& set
                      const MeasurableIn& measurable, TableReader* further) {
     check_name(from.file);
     Document document(from.text, from.file.string(), further != nullptr ? further->keys() : scene_keys());
+    check_no_study(document, from.file);
     for (const Assignment& assignment : sets) document.set(assignment);
     if (further == nullptr) scene.film_text = document.take_out("film");
     document.check_keys();

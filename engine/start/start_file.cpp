@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_set>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/step/surroundings.hpp"
@@ -148,8 +149,9 @@ void check_grains_match(const Scene& scene, const Grains& grains) {
     for (const std::int32_t species : grains.species) ++count[species];
     for (std::size_t s = 0; s < count.size(); ++s) {
         if (count[s] != scene.species[s].count)
-            fail(scene, fmt::format("has {} grains of \"{}\", but the scene says {}; write count = {}",
-                                    count[s], scene.species[s].name, scene.species[s].count, count[s]));
+            fail(scene, fmt::format("has {} of \"{}\", but the scene says {}; write count = {}",
+                                    counted(count[s], "grain"), scene.species[s].name, scene.species[s].count,
+                                    count[s]));
     }
 }
 

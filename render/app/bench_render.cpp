@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
@@ -261,9 +262,9 @@ int bench_render(const BenchRenderRequest& request, Reporter& reporter) {
         print_result(all.dump(2) + "\n");
         return 0;
     }
-    print_result(fmt::format(
-        "{} grains, {}x{}, {}, {} threads, coverage {:.2f}; ms a frame (median of {}):\n", bed.grains.size(),
-        scene.film.width, scene.film.height, renderer.gl_description(), threads, covered, totals.size()));
+    print_result(fmt::format("{}, {}x{}, {}, {}, coverage {:.2f}; ms a frame (median of {}):\n",
+                             counted(bed.grains.size(), "grain"), scene.film.width, scene.film.height,
+                             renderer.gl_description(), counted(threads, "thread"), covered, totals.size()));
     for (const auto& [name, value] : ms.items())
         print_result(fmt::format("{:>12}{:>9.2f}\n", name, value.get<double>()));
     return 0;

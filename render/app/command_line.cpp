@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "render/app/messages/reporter.hpp"
@@ -36,9 +37,10 @@ void check_verb(const Verbs& verbs, const std::string& word) {
     if (word[0] == '-' || std::find(names.begin(), names.end(), word) != names.end()) return;
     const std::optional<std::string> meant = nearest_name(word, names);
     throw UserError(fmt::format(
-        "{}; {}there are {}; see grainreel --help",
+        "{}; {}there are {}; see {} --help",
         word.empty() ? "no command" : fmt::format("unknown command '{}'", excerpt(word)),
-        meant && !word.empty() ? fmt::format("did you mean '{}'? ", *meant) : "", fmt::join(names, ", ")));
+        meant && !word.empty() ? fmt::format("did you mean '{}'? ", *meant) : "", fmt::join(names, ", "),
+        program_call()));
 }
 
 // The option's name in a word: "--duratoin" for "--duratoin=3". Empty when the word is not a long option.
@@ -55,8 +57,9 @@ void check_options(const Verb& verb, const CLI::App& parser, int argc, const cha
         const std::string word = option_name(argv[i]);
         if (word.empty() || std::find(names.begin(), names.end(), word) != names.end()) continue;
         const std::optional<std::string> meant = nearest_name(word, names);
-        throw UserError(fmt::format("unknown option '{}'; {}see grainreel {} --help", excerpt(word),
-                                    meant ? fmt::format("did you mean '{}'? ", *meant) : "", verb.name()));
+        throw UserError(fmt::format("unknown option '{}'; {}see {} {} --help", excerpt(word),
+                                    meant ? fmt::format("did you mean '{}'? ", *meant) : "", program_call(),
+                                    verb.name()));
     }
 }
 
@@ -72,10 +75,28 @@ class ShortFormatter final : public CLI::Formatter {
     }
 };
 
+// The text of a help page, with the program named in its commands as the user calls it.
+std::string as_called(std::string text) {
+    const std::string name = "grainreel ", call = program_call() + " ";
+    for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; at += call.size())
+        text.replace(at, name.size(), call);
+    return text;
+}
+
 void add_verb(CLI::App& app, Verb& verb) {
     CLI::App& parser = *app.add_subcommand(verb.name(), verb.about());
     verb.add_options(parser);
-    parser.footer(verb.footer());
+    for (CLI::Option* option : parser.get_options())
+        option->description(as_called(option->get_description()));
+    parser.footer(as_called(verb.footer()));
+}
+
+// What gives the help about the words: of their verb, if they have one.
+std::string help_about(const CLI::App& app, const Verbs& verbs) {
+    for (const auto& verb : verbs)
+        if (app.got_subcommand(verb->name()))
+            return fmt::format("{} {} --help", program_call(), verb->name());
+    return program_call() + " --help";
 }
 
 // The type of an option without the checks that CLI11 adds to it, as in "N:INT in [1 - 10]" or
@@ -139,14 +160,14 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 }  // namespace
 
 std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
-    auto app = std::make_unique<CLI::App>(about_program, "grainreel");
+    auto app = std::make_unique<CLI::App>(about_program, program_call());
     app->require_subcommand(1);
     app->set_version_flag("--version", std::function<std::string()>(version_text));
     app->formatter(std::make_shared<ShortFormatter>());
     app->get_formatter()->column_width(28);
     app->footer(
-        "Begin with:  grainreel movie scenes/wedge_segregation.toml\n"
-        "More about a verb:  grainreel movie --help");
+        as_called("Begin with:  grainreel movie scenes/wedge_segregation.toml\n"
+                  "More about a verb:  grainreel movie --help"));
     for (const auto& verb : verbs) add_verb(*app, *verb);
     return app;
 }
@@ -167,7 +188,8 @@ std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
         for (const auto& verb : verbs)
             if (app.got_subcommand(verb->name()))
                 check_options(*verb, *app.get_subcommand(verb->name()), argc, argv);
-        throw UserError(fmt::format("{}; see grainreel --help", excerpt(mistake.what(), most_of_a_mistake)));
+        throw UserError(fmt::format("{}; see {}", excerpt(mistake.what(), most_of_a_mistake),
+                                    help_about(app, verbs)));
     }
     const auto chosen = std::find_if(verbs.begin(), verbs.end(),
                                      [&](const auto& verb) { return app.got_subcommand(verb->name()); });

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/units.hpp"
@@ -213,7 +214,9 @@ std::string bed_about(const BedFrames& bed, const PageMeshes& meshes, const Film
         "differences of places. Nothing is interpolated between moments. ",
         error.x(), error.y(), error.z());
     if (bed.moments.size() == bed.all_moments)
-        text += fmt::format("These are all {} moments that the run kept.", bed.all_moments);
+        text += bed.all_moments == 1
+                    ? "This is the only moment that the run kept."
+                    : fmt::format("These are all {} moments that the run kept.", bed.all_moments);
     else
         text += fmt::format(
             "Of the {} moments that the run kept these are {}, evenly spread; the page has no room for "
@@ -232,8 +235,8 @@ std::string bed_about(const BedFrames& bed, const PageMeshes& meshes, const Film
         text += fmt::format(" What the film's colours stand for is known at {} of them.", bed.film_coloured);
     if (!bed.forces.moments.empty())
         text += fmt::format(
-            " Of {} moments the page has the pairs that push each other, with their normal forces to 2.3 %.",
-            bed.forces.moments.size());
+            " Of {} the page has the pairs that push each other, with their normal forces to 2.3 %.",
+            counted(bed.forces.moments.size(), "moment"));
     if (scene.container.wall_grains) text += " Grains that are glued to walls are not shown.";
     for (std::string note : meshes.notes()) {
         note.front() = 'T';

@@ -46,6 +46,22 @@ TEST(ExitLevel, IsTheTopOfABoxOrTheFloorOfOneAroundEverything) {
     EXPECT_EQ(framing_points(around), framing_points(below));
 }
 
+// A mesh that the drive moves 20 mm up and down reaches to -20 mm, and grains fade in the lower half of the
+// way from there to the exit: from -35 mm on. If it stands, they fade from -25 mm on.
+TEST(ExitLevel, LeavesRoomForTheStrokeOfAMesh) {
+    FilmedScene scene = with_exit({{-1, -1, -0.3}, {1, 1, -0.05}, false});
+    scene.drive = {true, 10, 0.02};
+    const auto faded_at = [&](double z) {
+        return fade_of(scene).at(static_cast<std::size_t>(view_of(scene).project({0, 0, z}).y())) < 255;
+    };
+    for (const bool driven : {false, true}) {
+        scene.meshes[0].driven = driven;
+        const double begins = driven ? -0.035 : -0.025;
+        EXPECT_FALSE(faded_at(begins + 0.003)) << driven;
+        EXPECT_TRUE(faded_at(begins - 0.003)) << driven;
+    }
+}
+
 // With both, the one that grains meet first on the way down counts.
 TEST(ExitLevel, IsTheHighestOfSeveral) {
     FilmedScene scene = with_exit({{-1, -1, -0.3}, {1, 1, -0.1}, false});

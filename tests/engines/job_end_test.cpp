@@ -99,14 +99,14 @@ TEST_P(EarlyEnd, ARankThatIsKilledLeavesWhatThereIs) {
 // The ranks end with the script. LIGGGHTS then writes a restart file of that moment, from which it goes on.
 TEST_P(EarlyEnd, ASignalToTheScriptEndsTheRanks) {
     ::kill(job_, SIGTERM);
-    EXPECT_NE(wait(), 0);
+    EXPECT_EQ(wait(), 143);
+    EXPECT_EQ(text_of(folder_ / status_name), "143\n");
     EXPECT_TRUE(ranks().empty());
     const HandoverFacts facts = read_handover(folder_.path());
     EXPECT_TRUE(job_end(folder_.path(), facts).ended);
-    EXPECT_NE(job_end(folder_.path(), facts).failure, "");
+    EXPECT_THAT(job_end(folder_.path(), facts).failure, HasSubstr("was asked to end by a signal"));
     EXPECT_GE(back().frames, 5);
     if (GetParam() == PeerEngine::lammps) return;
-    EXPECT_THAT(job_end(folder_.path(), facts).failure, HasSubstr("was asked to end by a signal"));
     for (const fs::directory_entry& one : fs::directory_iterator(folder_.path()))
         EXPECT_FALSE(one.path().filename().string().starts_with(forced_begin)) << one.path();
     const std::optional<std::int64_t> restart = newest_restart(folder_.path(), GetParam());

@@ -123,7 +123,7 @@ TEST(Xyz, WrongCountsAndColumnsAreToldWithTheirLine) {
     EXPECT_THAT(complaint_of(xyz_format(), "1\n\nSt 1 2 3\nSt 4 5 6\n1\n\nSt 1 2 3\n"),
                 StartsWith("grains:4: the count of grains of a frame must stand here, not \"St 4 5 6\""));
     EXPECT_THAT(complaint_of(xyz_format(), "2\n\nSt 1 2 3\n1\n\nSt 1 2 3\n"),
-                StartsWith("grains:4: row 2 of 2 has 1 columns in place of 4; line 1 says 2 grains"));
+                StartsWith("grains:4: row 2 of 2 has 1 column in place of 4; line 1 says 2 grains"));
     EXPECT_THAT(complaint_of(xyz_format(), "2\n\nSt 1 2 3\nSt 4 5 6 7\n"), StartsWith("grains:4: "));
     EXPECT_THAT(complaint_of(xyz_format(), "1\n\nSt 1 nan 3\n"),
                 StartsWith("grains:3: the grain has no place: its y is \"nan\""));

@@ -464,7 +464,9 @@ TEST(Messages, CommandLine) {
     EXPECT_EQ(complaint(wedge_text, {"species[2].count=3"}),
               "--set species[2].count: there is no '2' among the 2 entries; they count from 0");
     EXPECT_EQ(complaint(wedge_text, {"species.huge.count=3"}),
-              "--set species.huge.count: there is no 'huge' among the 2 entries; they count from 0");
+              "--set species.huge.count: there is no 'huge'; there are small, big");
+    EXPECT_EQ(complaint(wedge_text, {"species.bigg.count=3"}),
+              "--set species.bigg.count: there is no 'bigg'; did you mean 'big'? there are small, big");
     EXPECT_EQ(complaint(wedge_text, {"run.duration.more=3"}),
               "--set run.duration.more: 'run.duration' is not a table; name one of its own keys");
     const std::string size =

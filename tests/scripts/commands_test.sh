@@ -18,7 +18,10 @@ stub sudo 'exit 1'
 stub cmake 'echo "cmake $*" >>"$CALLS"; mkdir -p build/release; touch build/release/build.ninja
 { echo "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD"; for o; do echo "${o#-D}" | sed "s/=/:BOOL=/"; done; } >build/release/CMakeCache.txt'
 stub ninja 'echo "ninja ${*: -1}" >>"$CALLS"; while [[ $1 != -C ]]; do shift; done
-printf "%s\n" "#!/bin/bash" "printf \"[%s]\" \"\$PWD\" \"\$@\"" >"$2/grainreel"; chmod 755 "$2/grainreel"; echo "ninja: no work to do."'
+printf "%s\n" "#!/bin/bash" "echo \"\$GRAINREEL_CALLED\" >>\$CALLS.name" "printf \"[%s]\" \"\$PWD\" \"\$@\"" >"$2/grainreel"; chmod 755 "$2/grainreel"; echo "[0/1] Re-checking globbed directories..."; echo "-- Configuring done"
+if [[ -z ${STEPS-} ]]; then echo "ninja: no work to do."; fi
+for ((i = 1; i <= ${STEPS-0}; ++i)); do echo "[$i/$STEPS] Building CXX object some.o"; done
+if [[ -n ${ERROR-} ]]; then printf "FAILED: some.o\n%s\nninja: build stopped.\n" "$ERROR"; exit 1; fi'
 stub ctest 'echo "ctest $*" >>"$CALLS"'
 
 run() {  # words of a command; leaves $out, $said (stderr), $status, $did (calls of the stand-ins)
@@ -41,6 +44,14 @@ run "$tree/movie" two.toml --title "a b"
 expect "the caller's folder first" "${here}[movie][two.toml][--title][a b]" "$out"
 expect "second call does not configure" "ninja grainreel" "$did"
 expect "nothing to say" "" "$said"
+run env STEPS=240 "$tree/movie" two.toml
+expect "a build is told in two lines" 2 "$(wc -l <<<"$said")"
+contains "the first line: what and how long" "Building in 240 steps; takes about $((240 * 5 / $(nproc) / 60 + 1)) min" "$said"
+contains "the last line" "Built in " "$said"
+run env STEPS=1 ERROR="some.cpp:1: error: no such thing" "$tree/movie" two.toml
+expect "a build that fails" 1 "$status"
+contains "its error" "some.cpp:1: error: no such thing" "$said"
+[[ $said != *"Built in"* ]] || contains "a build that failed is not done" "nothing of the kind" "$said"
 run "$tree/movie" scenes/one.toml --no-install --no-film
 expect "then the tree" "${here}[movie][$tree/scenes/one.toml][--no-film]" "$out"
 run "$tree/movie" --duration 1s two.toml --set start.file=x.toml
@@ -53,7 +64,9 @@ expect "a verb" "${here}[render][$work/a run][--at][1]" "$out"
 run "$tree/movie" --no-install compare two.toml scenes/one.toml
 expect "a verb's scenes are looked for likewise" "${here}[compare][two.toml][$tree/scenes/one.toml]" "$out"
 expect "a verb builds too" "ninja grainreel" "$did"
+rm -f "$calls.name"
 run env -C "$tree" ./movie movie scenes/one.toml
+expect "the program is told how it was called" "./movie" "$(<"$calls.name")"
 expect "the verb movie, where the script lies" "[$tree][movie][scenes/one.toml]" "$out"
 run "$tree/movie" rendr x
 expect "an unknown verb is the program's to report" "${here}[rendr][x]" "$out"

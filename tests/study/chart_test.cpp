@@ -25,6 +25,17 @@ using testing::HasSubstr;
 using testing::Not;
 using State = MemberResult::State;
 
+TEST(StudyChartLabels, HaveTheUnitUnlessTheyNameIt) {
+    EXPECT_EQ(with_unit("kinetic energy, mean", "J"), "kinetic energy, mean (J)");
+    EXPECT_EQ(with_unit("share of big grains", ""), "share of big grains");
+    EXPECT_EQ(with_unit("flow along the wall, m a period", "m"), "flow along the wall, m a period");
+    EXPECT_EQ(with_unit("rate of the drum, rad/s", "rad/s"), "rate of the drum, rad/s");
+    EXPECT_EQ(with_unit("angle (degrees)", "degree"), "angle (degrees)");
+    EXPECT_EQ(with_unit("time to empty", "m"), "time to empty (m)");
+    EXPECT_EQ(with_unit("mass", "s"), "mass (s)");
+    EXPECT_EQ(with_unit("s", "s"), "s");
+}
+
 struct Made {
     StudyFolderOfTest folder;
     Study study;
@@ -71,6 +82,18 @@ TEST(StudyChartPoints, LeaveOutWhatIsNotThere) {
     EXPECT_EQ(series[1].points[0].y.count, 1u);
     EXPECT_EQ(series[1].points[0].y.mean, 3);
     EXPECT_EQ(setting_interval(made.members, made.results, 1, 1).mean, 3);
+}
+
+TEST(StudyChartLabels, StandOnTheChartWithTheirUnits) {
+    Made made(small_study);
+    StudyChart chart = made.study.charts[0];
+    chart.x = 1, chart.y = 0;
+    const std::string commands =
+        chart_commands(made.study, chart, chart_series(made.study, made.members, made.results, chart), false);
+    EXPECT_THAT(commands, HasSubstr("set xlabel 'species.big.diameter (mm)'"));
+    EXPECT_THAT(commands, HasSubstr("set ylabel 'kinetic energy, mean (J)'"));
+    EXPECT_THAT(study_page(made.study, made.members, made.results, {made.folder.path()}, {}),
+                HasSubstr("<th>kinetic energy, mean (J)</th>"));
 }
 
 TEST(StudyTable, HasARowAMember) {

@@ -1,6 +1,7 @@
 #include "engine/files/frames/open_frames.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cstring>
 #include <mutex>
@@ -46,11 +47,11 @@ FileHead head_of(const fs::path& path) {
 }
 
 [[noreturn]] void refuse(const fs::path& path) {
-    std::string known;
-    for (const auto& reader : own_readers()) known += fmt::format("\n  {}", reader->about());
-    for (const FrameReader& reader : frame_readers()) known += fmt::format("\n  {}", reader.about);
-    throw UserError(
-        fmt::format("{}: holds no frames that can be read. These can be:{}", path.string(), known));
+    std::vector<std::string> known;
+    for (const auto& reader : own_readers()) known.emplace_back(reader->about());
+    for (const FrameReader& reader : frame_readers()) known.emplace_back(reader.about);
+    throw UserError(fmt::format("{}: holds no frames that can be read; give {}", path.string(),
+                                fmt::join(known, ", or ")));
 }
 
 }  // namespace

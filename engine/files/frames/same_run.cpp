@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/scene/drive_schedule.hpp"
@@ -119,8 +120,8 @@ void check_meshes(const Scene& scene, const World& said, const std::string& traj
 void check_grains(const Scene& scene, const World& world, const Frame& frame, const std::string& trajectory) {
     const auto grains = static_cast<std::int64_t>(world.most_grains);
     if (grains != scene.grains() && !world.traffic)
-        of_two_runs(fmt::format("{}: has {} grains, but scene.toml beside it has {}", trajectory, grains,
-                                scene.grains()));
+        of_two_runs(fmt::format("{}: has {}, but scene.toml beside it has {}", trajectory,
+                                counted(grains, "grain"), scene.grains()));
     std::vector<std::int64_t> count(scene.species.size(), 0);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const auto of = static_cast<std::size_t>(frame.species[i]);
@@ -134,8 +135,9 @@ void check_grains(const Scene& scene, const World& world, const Frame& frame, co
     }
     for (std::size_t s = 0; s < count.size(); ++s)
         if (count[s] > scene.species[s].count && !world.traffic)  // there are fewer when some have left
-            of_two_runs(fmt::format("{}: has {} grains of '{}', but scene.toml beside it has {}", trajectory,
-                                    count[s], scene.species[s].name, scene.species[s].count));
+            of_two_runs(fmt::format("{}: has {} of '{}', but scene.toml beside it has {}", trajectory,
+                                    counted(count[s], "grain"), scene.species[s].name,
+                                    scene.species[s].count));
 }
 
 void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame) {

@@ -7,6 +7,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/program.hpp"
+#include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/times.hpp"
 #include "engine/state/checkpoint_file.hpp"
@@ -15,10 +17,26 @@ namespace grainreel {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+[[noreturn]] void fail_without_folder(const fs::path& path) {
+    std::error_code error;
+    if (!fs::exists(path, error))
+        throw UserError(fmt::format("{}: no such folder; give the folder of a run", path.string()));
+    const std::string other = other_than_file(path, true);
+    const bool scene = other.empty() && path.extension() == ".toml";
+    throw UserError(fmt::format("{}: is {}; give the folder of a run{}", path.string(),
+                                other.empty() ? "a file" : other,
+                                scene ? fmt::format(", or run the scene: {} movie {}", program_call(),
+                                                    shell_word(path.string()))
+                                      : ""));
+}
+
+}  // namespace
+
 fs::path folder_of_run(const fs::path& folder) {
     std::error_code error;
-    if (!fs::is_directory(folder, error))
-        throw UserError(fmt::format("{}: no such folder; give the folder of a run", folder.string()));
+    if (!fs::is_directory(folder, error)) fail_without_folder(folder);
     const fs::path normal = folder.lexically_normal();
     if (normal.has_filename() && normal.filename() != "." && normal.filename() != "..") return normal;
     return normal.has_filename() || !normal.has_parent_path() ? fs::canonical(folder) : normal.parent_path();

@@ -2,9 +2,11 @@
 // intruder. Each class gives columns of measures.csv; the formulas are in bed_formulas.hpp.
 #pragma once
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "engine/measure/bed/bed_formulas.hpp"
 #include "engine/measure/measures.hpp"
@@ -54,6 +56,12 @@ class BedMotion final : public Observer {
             {{{"flight_periods", "time of flight (periods)"}}, "periods", "how long it took"}};
     }
 
+    static std::string why_empty(const Scene& scene, const std::string& column) {
+        if (column == "bed_expansion") return "";
+        if (!scene.drive.present) return "the bed flies in periods of the drive, and nothing is driven";
+        return scene.container.shape == Container::Shape::none ? "there is no floor from which the bed flies"
+                                                               : "";
+    }
     BedMotion(const Scene&, const Plan& plan)
         : every_(std::max<std::int64_t>(1, plan.clock.steps_per_period / kLooks)),
           shaken_(plan.clock.steps_per_period > 0),
@@ -327,6 +335,15 @@ class Intruder final : public Observer {
                 {{{"rise_time_s", "rise time", Dimension::time}},
                  "s",
                  "when `intruder_level` first reached 1; NaN until then"}};
+    }
+    static std::string why_empty(const Scene& scene, const std::string&) {
+        if (scene.species.size() < 2)
+            return "the intruder is a grain of a second species, and the scene has one";
+        const std::int64_t largest = scene.species[big_and_small(scene.species).big].count;
+        const bool stays =
+            scene.start.packs() && scene.feeds.empty() && scene.exits.empty() && !scene.container.outlet;
+        if (largest == 1 || !stays) return "";
+        return fmt::format("the intruder is the one grain of the largest species, which has {}", largest);
     }
     Intruder(const Scene&, const Plan& plan) : rows_(plan) {}
 

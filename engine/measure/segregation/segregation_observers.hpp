@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
@@ -11,6 +12,11 @@
 #include "engine/measure/segregation/unlike_neighbours.hpp"
 
 namespace grainreel::observers {
+
+// Why a scene has no values that compare two species; empty where it may have some.
+inline std::string without_two_kinds(const Scene& scene) {
+    return scene.species.size() > 1 ? "" : "it compares two species, and the scene has one";
+}
 
 // Observer of the height of big grains above small ones.
 class HeightDifference final : public Observer {
@@ -22,6 +28,7 @@ class HeightDifference final : public Observer {
                  "divided by the height above the floor below which 95 % of all centres lie; if all species "
                  "are equal in size, the first minus the second"}};
     }
+    static std::string why_empty(const Scene& scene, const std::string&) { return without_two_kinds(scene); }
     void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 1);
         const BigAndSmall kinds = big_and_small(m.scene.species);
@@ -40,6 +47,7 @@ class BigAboveSmall final : public Observer {
                  "probability that a grain of the largest species lies above one of the smallest: 0 all "
                  "below, 1/2 mixed, 1 all above"}};
     }
+    static std::string why_empty(const Scene& scene, const std::string&) { return without_two_kinds(scene); }
     void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 1);
         const BigAndSmall kinds = big_and_small(m.scene.species);
@@ -59,6 +67,7 @@ class BigInQuarters final : public Observer {
              "share of the largest species' grains whose centres lie above 3/4 of the bed's height"},
             {{{"big_in_bottom_quarter", "big grains in bottom quarter"}}, "1", "the same below 1/4 of it"}};
     }
+    static std::string why_empty(const Scene& scene, const std::string&) { return without_two_kinds(scene); }
     void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 2);
         const BigAndSmall kinds = big_and_small(m.scene.species);
@@ -80,6 +89,10 @@ class BigAtWalls final : public Observer {
              "1",
              "share of the largest species' grains beside the left or right wall or slant, or a cylinder's "
              "wall: no grain of the smallest mean diameter fits between"}};
+    }
+    static std::string why_empty(const Scene& scene, const std::string&) {
+        if (scene.species.size() > 1 && !SideWalls(scene).any()) return "the container has no side walls";
+        return without_two_kinds(scene);
     }
     BigAtWalls(const Scene& scene, const Plan&) : walls_(scene) {}
 
@@ -110,6 +123,7 @@ class Mixing final : public Observer {
              "intensity of segregation by Danckwerts, from the samples of `lacey`: 1 segregated, about "
              "1/32 randomly mixed"}};
     }
+    static std::string why_empty(const Scene& scene, const std::string&) { return without_two_kinds(scene); }
     void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 2);
         const BigAndSmall kinds = big_and_small(m.scene.species);
@@ -137,6 +151,7 @@ class Unlike final : public Observer {
                  "pairs of neighbours of different species over what chance would give: 0 segregated, 1 "
                  "randomly mixed"}};
     }
+    static std::string why_empty(const Scene& scene, const std::string&) { return without_two_kinds(scene); }
     void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 1);
         const BigAndSmall kinds = big_and_small(m.scene.species);

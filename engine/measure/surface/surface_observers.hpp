@@ -77,6 +77,13 @@ class BedSurface final : public Observer {
              "tangent of the mean rise from both walls to the middle"},
             {{{"surface_tilt", "tilt of the surface"}}, "1", "tangent of the rise from left to right"}};
     }
+    static std::string why_empty(const Scene& scene, const std::string& column) {
+        const SurfaceFrame frame = surface_frame(scene);
+        if (!(frame.right > frame.left)) return "the scene has no container with a surface of grains in it";
+        const bool of_drive = column == "surface_half" || column == "surface_quarter";
+        return of_drive && !scene.drive.present ? "it compares periods of the drive, and nothing is driven"
+                                                : "";
+    }
     BedSurface(const Scene& scene, const Plan& plan) : rows_(plan), frame_(surface_frame(scene)) {}
 
     std::int64_t gathers_after(std::int64_t step) const override { return rows_.after(step); }
@@ -188,6 +195,9 @@ class Drum final : public Observer {
              "slumps, then it rolls and cascades, from about 0.1 on it cataracts, and at 1 it goes round "
              "with the drum "
              "(Mellmann 2001)"}};
+    }
+    static std::string why_empty(const Scene& scene, const std::string&) {
+        return turning_body(scene) ? "" : "nothing turns in the scene";
     }
     Drum(const Scene& scene, const Plan&) : drum_(turning_body(scene)), diameter_(mean_diameter(scene)) {}
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/former_run.hpp"
@@ -252,6 +253,8 @@ void RunDriver::save_checkpoint() {
 
 void RunDriver::close(FirstFailure& failure) {
     if (!packed_ || folder_ == nullptr || !folder_->is_there()) return;
+    // A run that ends between pack() and start() has its files too, so that its checkpoint can go on.
+    if (!files_ && !goes_on_) failure.attempt([&] { open_files(); });
     failure.attempt([&] {
         if (files_ && files_->last_measures() &&
             files_->last_measures()->at("step") != static_cast<double>(simulation_.step()))
@@ -266,21 +269,22 @@ void RunDriver::close(FirstFailure& failure) {
 std::string RunDriver::found_packing_text() const {
     if (!found_packing_) return "";
     return fmt::format(
-        "took the packing of an earlier run of this start from the cache: {} grains, solid fraction {:.3f}; "
+        "took the packing of an earlier run of this start from the cache: {}, solid fraction {:.3f}; "
         "--no-cache packs anew",
-        simulation_.grains(), packing_.solid_fraction);
+        counted(simulation_.grains(), "grain"), packing_.solid_fraction);
 }
 
 std::string RunDriver::packing_text() const {
     const std::string not_kept =
         not_kept_.empty() ? "" : fmt::format("; for later runs it is not kept: {}", not_kept_);
     if (scene_.start.method == Start::Method::file)
-        return fmt::format("took {} grains from {}; {}", simulation_.grains(), scene_.start.file,
+        return fmt::format("took {} from {}; {}", counted(simulation_.grains(), "grain"), scene_.start.file,
                            plan_.start.relaxes && packing_.settled
                                ? fmt::format("relaxed for {:.3g} s", packing_.settle_time)
                                : plan_.start.text);
-    return fmt::format("packed {} grains: {:.3g} s of settling, solid fraction {:.3f}{}",
-                       simulation_.grains(), packing_.settle_time, packing_.solid_fraction, not_kept);
+    return fmt::format("packed {}: {:.3g} s of settling, solid fraction {:.3f}{}",
+                       counted(simulation_.grains(), "grain"), packing_.settle_time, packing_.solid_fraction,
+                       not_kept);
 }
 
 std::optional<std::string> RunDriver::packing_warning() const {
@@ -309,13 +313,16 @@ double RunDriver::speed() const {
 std::string RunDriver::files_text() const {
     std::string text;
     if (plan_.trajectory_every > 0)
-        text += fmt::format("trajectory.nc ({} frames), ", files_->trajectory_frames());
+        text += fmt::format("trajectory.nc ({}), ", counted(files_->trajectory_frames(), "frame"));
     if (files_->keeps_film_moments()) text += "film_moments.nc, ";
     if (files_->keeps_key_moments()) text += "key_moments.nc, key_contacts.nc, ";
     if (files_->has_contacts()) text += "contacts.nc, ";
-    if (files_->has_fields()) text += fmt::format("fields.nc ({} records), ", files_->field_records());
-    if (const auto rows = files_->outflow_rows()) text += fmt::format("outflow.csv ({} grains), ", *rows);
-    text += fmt::format("measures.csv ({} rows), final.csv, checkpoint.grs, ", files_->measures_rows());
+    if (files_->has_fields())
+        text += fmt::format("fields.nc ({}), ", counted(files_->field_records(), "record"));
+    if (const auto rows = files_->outflow_rows())
+        text += fmt::format("outflow.csv ({}), ", counted(*rows, "grain"));
+    text += fmt::format("measures.csv ({}), final.csv, checkpoint.grs, ",
+                        counted(files_->measures_rows(), "row"));
     if (ring_) text += fmt::format("checkpoints/ ({}), ", ring_->kept().size());
     return text + "scene.toml, run.json";
 }

@@ -34,7 +34,8 @@ struct Progress {
         studying,
         replaying,
         paging,
-        exporting
+        exporting,
+        reading
     };
     Stage stage = Stage::growing;
     double done = 0;                              // share of this stage, 0 to 1

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/counted.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/run/driver/also_exports.hpp"
 #include "engine/run/simulation/simulation.hpp"
@@ -86,8 +87,9 @@ void SceneFolderRun::describe() {
     driver_.describe(desk_.record);
     begin_record(warnings);
     driver_.use_folder(desk_.folder->lock(), desk_.record.version, desk_.folder->previous());
-    desk_.listener.detail(fmt::format("{}: {} grains, {} steps of {:.4g} s ({})", scene.file, scene.grains(),
-                                      plan.steps, plan.clock.step, plan.step_reason));
+    desk_.listener.detail(fmt::format("{}: {}, {} of {:.4g} s ({})", scene.file,
+                                      counted(scene.grains(), "grain"), counted(plan.steps, "step"),
+                                      plan.clock.step, plan.step_reason));
     desk_.listener.detail(threads_text());
 }
 
@@ -115,7 +117,7 @@ bool SceneFolderRun::pack() {
     if (const std::string found = driver_.found_packing_text(); !found.empty()) desk_.listener.info(found);
     desk_.listener.detail(driver_.packing_text());
     if (const auto warning = driver_.packing_warning()) desk_.listener.warning(*warning);
-    return desk_.listener.stop_signal() == 0;
+    return true;
 }
 
 void SceneFolderRun::tell_news() {

@@ -68,7 +68,7 @@ class SceneFolderRun : public FolderRun {
 
   private:
     void describe();
-    bool pack();  // false when the run was asked to stop
+    bool pack();  // false when the run was asked to stop before its grains were packed
     void tell_news();
     void show_progress();
     void report_segregation();

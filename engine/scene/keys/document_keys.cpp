@@ -1,8 +1,10 @@
 // The keys of a document: assignments from the command line, and checks that every key is known and was read.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <sstream>
 
 #include "engine/base/error.hpp"
@@ -74,8 +76,19 @@ toml::node* Document::step_into(toml::node& node, const std::string& part, const
     for (toml::node& element : *array)
         if (element.is_table() && element.as_table()->at_path("name").value<std::string>() == part)
             return &element;
-    throw UserError(fmt::format("{}: there is no '{}' among the {} entries; they count from 0", by,
-                                excerpt(part), array->size()));
+    std::vector<std::string> names;
+    for (const toml::node& element : *array)
+        if (const toml::table* entry = element.as_table())
+            if (const auto name = entry->at_path("name").value<std::string>()) names.push_back(*name);
+    if (is_index || names.empty())
+        throw UserError(
+            fmt::format("{}: there is no '{}' among the {}; they count from 0", by, excerpt(part),
+                        array->size() == 1 ? "1 entry" : fmt::format("{} entries", array->size())));
+    const std::optional<std::string> meant = nearest_name(part, names);
+    constexpr std::size_t most_named = 300;  // characters
+    throw UserError(fmt::format("{}: there is no '{}'; {}there are {}", by, excerpt(part),
+                                meant ? fmt::format("did you mean '{}'? ", excerpt(*meant)) : "",
+                                excerpt(fmt::format("{}", fmt::join(names, ", ")), most_named)));
 }
 
 // The table in which the last of `parts` lies, and its path with indices. The table is made if it is missing.

@@ -7,6 +7,8 @@
 #include <functional>
 #include <queue>
 
+#include "engine/base/counted.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/scene/text/units.hpp"
@@ -59,12 +61,14 @@ void print_elsewhere(const Scene& scene, const Plan& plan, const CostEstimate& h
     const double mine = here.packing_seconds + here.engine_seconds;
     list.line(
         "", mine > long_run && mine > much_faster * fastest
-                ? "hand it over where you have as many processors: ./movie handover (docs/guide/clusters.md)"
+                ? fmt::format(
+                      "hand it over where you have as many processors: {} handover (docs/guide/clusters.md)",
+                      program_call())
                 : fmt::format("stay here: one of our threads does the work of {:.0f} ranks", kRanksAThread));
 }
 
 std::string threads_text(int threads) {
-    return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s");
+    return counted(threads, "thread");
 }
 
 }  // namespace
@@ -79,8 +83,8 @@ void print_files(const FilmedScene& scene, const Plan& plan, const std::vector<S
                  Listing& list) {
     const std::int64_t pictures = frames_of(film), held = held_frames(scene.film);
     const DiskEstimate disk = estimate_disk(scene, plan, pictures + held);
-    list.line("film", fmt::format("{}x{}, {:.4g} frames/s, {} frames, plays for {}", scene.film.width,
-                                  scene.film.height, scene.film.rate, pictures + held,
+    list.line("film", fmt::format("{}x{}, {:.4g} frames/s, {}, plays for {}", scene.film.width,
+                                  scene.film.height, scene.film.rate, counted(pictures + held, "frame"),
                                   span_text(static_cast<double>(pictures + held) / scene.film.rate)));
     if (held > 0)
         list.line("", fmt::format("{} of that it stands still for captions",
@@ -96,16 +100,21 @@ void print_files(const FilmedScene& scene, const Plan& plan, const std::vector<S
                       ? fmt::format(", {} at most", data_size_text(static_cast<double>(*scene.film.max_size)))
                       : ""));
     if (disk.trajectory_frames > 0)
-        list.line("", fmt::format("trajectory {}, {} frames, one every {}", data_size_text(disk.trajectory),
-                                  grouped(disk.trajectory_frames),
+        list.line("", fmt::format("trajectory {}, {} frame{}, one every {}", data_size_text(disk.trajectory),
+                                  grouped(disk.trajectory_frames), disk.trajectory_frames == 1 ? "" : "s",
                                   interval_text(plan.trajectory_periods, plan.trajectory_every, plan)));
-    list.line("", fmt::format("measures {}, {} rows, one every {}", data_size_text(disk.measures),
-                              grouped(disk.measures_rows),
+    list.line("", fmt::format("measures {}, {} row{}, one every {}", data_size_text(disk.measures),
+                              grouped(disk.measures_rows), disk.measures_rows == 1 ? "" : "s",
                               interval_text(plan.measures_periods, plan.measures_every, plan)));
     if (disk.checkpoints + disk.film_moments > 0)
-        list.line("",
-                  fmt::format("so that any moment comes back: checkpoints up to {}, moments of the film {}",
-                              data_size_text(disk.checkpoints), data_size_text(disk.film_moments)));
+        list.line("", fmt::format("so that any moment comes back: {}{}{}",
+                                  disk.checkpoints > 0
+                                      ? fmt::format("checkpoints up to {}", data_size_text(disk.checkpoints))
+                                      : "",
+                                  disk.checkpoints > 0 && disk.film_moments > 0 ? ", " : "",
+                                  disk.film_moments > 0 ? fmt::format("moments of the film {}",
+                                                                      data_size_text(disk.film_moments))
+                                                        : ""));
 }
 
 void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<SegmentCount>& film,

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
@@ -264,8 +265,9 @@ class Inspection {
                 mean.add(answer_of(finder, snapshot, reporter), snapshot.frame.time);
         });
         if (moments == 0)
-            throw UserError(fmt::format("--average: {} kept no moment in the {} periods before {:.6g} s",
-                                        asked_run.frames().path().string(), *asks_.average, asked.time));
+            throw UserError(fmt::format("--average: {} kept no moment in the {} before {:.6g} s",
+                                        asked_run.frames().path().string(), counted(*asks_.average, "period"),
+                                        asked.time));
         if (without_grain == moments)
             throw UserError(fmt::format("--grain: no grain has the id {} at any of the {} moments",
                                         *asks_.grain, moments));
@@ -275,10 +277,10 @@ class Inspection {
                             : mean.mean();
         if (without_grain > 0)
             answer.notes.push_back(
-                fmt::format("the grain is not there at {} of the {} moments", without_grain, moments));
-        answer.moment = {
-            asked.time, asked.step,
-            fmt::format("mean over {} moments of the {} periods before", moments, *asks_.average)};
+                fmt::format("the grain is not there at {} of {}", without_grain, counted(moments, "moment")));
+        answer.moment = {asked.time, asked.step,
+                         fmt::format("mean over {} of the {} before", counted(moments, "moment"),
+                                     counted(*asks_.average, "period"))};
         return answer;
     }
 

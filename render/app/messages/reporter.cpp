@@ -164,6 +164,8 @@ std::string to_string(Progress::Stage stage) {
             return "replaying";
         case Progress::Stage::exporting:
             return "exporting";
+        case Progress::Stage::reading:
+            return "reading";
         case Progress::Stage::paging:
             return "page";
         case Progress::Stage::vibrating:

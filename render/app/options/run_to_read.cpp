@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
+#include <string_view>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_series.hpp"
+#include "engine/files/frames/open_frames.hpp"
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/import/import_run.hpp"
@@ -32,14 +34,37 @@ fs::path folder_around(const fs::path& path) {
 
 void bring_back_to_read(const fs::path& path, Reporter& reporter) {
     if (!is_handover(path)) return;
-    const ShareWatcher watcher(reporter, Progress::Stage::paging);
+    const ShareWatcher watcher(reporter, Progress::Stage::reading);
     const BroughtBack back =
-        bring_back(path, build_info::version, [&](double done) { return watcher("reading the dump", done); });
+        bring_back(path, build_info::version, [&](double done) { return watcher("the dump", done); });
     for (const std::string& line : back.news) reporter.warning(line);
 }
 
+namespace {
+
+// Throws for a file of which no run can be made. A scene is left to the reader of runs, which knows the verb
+// for it.
+void refuse_other_files(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored) || fs::is_directory(path, ignored) || path.extension() == ".toml") return;
+    const FrameReader* const reader = reader_of(path);
+    if (reader != nullptr)
+        throw UserError(
+            fmt::format("{}: is {}; give the folder of its run", path.string(), reader->about));
+    for (const FrameReader& known : frame_readers())
+        if (std::string_view(known.name) == "foreign")
+            throw UserError(fmt::format("{}: is {}; give the folder of a run, or {}", path.string(),
+                                        fs::file_size(path, ignored) == 0
+                                            ? "an empty file"
+                                            : "a file of no format that is read here",
+                                        known.about));
+}
+
+}  // namespace
+
 RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Reporter& reporter) {
     if (!is_foreign(path)) {
+        refuse_other_files(path);
         if (const std::string option = given_reading(reading); !option.empty())
             throw UserError(
                 fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
@@ -51,8 +76,8 @@ RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Repor
     request.from = path;
     request.reading = reading;
     request.program_version = fmt::format("{} ({})", build_info::version, build_info::commit);
-    const ShareWatcher watcher(reporter, Progress::Stage::paging);
-    request.watcher = [&](double done) { return watcher("reading " + path.filename().string(), done); };
+    const ShareWatcher watcher(reporter, Progress::Stage::reading);
+    request.watcher = [&](double done) { return watcher(path.filename().string(), done); };
     const ImportedRun run = cached_import(request);
     for (const std::string& line : run.news) reporter.info(line);
     return {run.folder, folder_around(path), true};

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "render/app/study/results/points.hpp"
 #include "render/page/embed.hpp"
 
@@ -37,8 +38,8 @@ std::size_t count_of(const std::vector<MemberResult>& results, State state) {
 }
 
 std::string summary(const Study& study, const std::vector<MemberResult>& results) {
-    std::string text = fmt::format("{} of {} members of {} are complete", count_of(results, State::complete),
-                                   results.size(), study.scene.filename().string());
+    std::string text = fmt::format("{} of {} of {} complete", count_of(results, State::complete),
+                                   counted(results.size(), "member"), study.scene.filename().string());
     if (const std::size_t failed = count_of(results, State::failed); failed > 0)
         text += fmt::format(", {} failed", failed);
     const std::size_t left = count_of(results, State::missing) + count_of(results, State::incomplete);
@@ -77,7 +78,7 @@ std::string settings_table(const Study& study, const std::vector<Member>& member
     for (const Variation& variation : study.variations)
         text += fmt::format("<th>{}</th>", html_text(variation.label));
     for (const StudyMeasure& measure : study.measures)
-        text += fmt::format("<th>{}</th>", html_text(measure.label));
+        text += fmt::format("<th>{}</th>", html_text(measure.title()));
     text += "<th>values</th></tr>\n";
     for (const std::size_t m : first_members(members)) {
         text += "<tr>";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 namespace grainreel {
 namespace {
@@ -54,6 +55,19 @@ Rows finite_rows(const Rows& all) {
 }
 
 }  // namespace
+
+std::string with_unit(const std::string& label, const std::string& unit) {
+    if (unit.empty()) return label;
+    const auto is_apart = [&](std::size_t at) {
+        return at >= label.size() || std::string_view(" ,;:()[]").find(label[at]) != std::string_view::npos;
+    };
+    for (std::size_t at = label.find(unit); at != std::string::npos; at = label.find(unit, at + 1)) {
+        const std::size_t end = at + unit.size();
+        const bool whole = is_apart(end) || (label[end] == 's' && is_apart(end + 1));  // "degrees"
+        if (whole && (at == 0 || is_apart(at - 1))) return label;
+    }
+    return label + " (" + unit + ")";
+}
 
 Assignments Variation::assignments(std::size_t number) const {
     const Value& value = values[number];

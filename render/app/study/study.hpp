@@ -18,6 +18,10 @@ constexpr const char* variant_axis = "variant";
 
 using Seeds = std::vector<std::uint64_t>;
 
+// What an axis is called: "drive frequency (Hz)". The unit is left out where there is none, and where the
+// label names it by itself: "rate of the drum, rad/s".
+std::string with_unit(const std::string& label, const std::string& unit);
+
 // One axis of the grid: a key of the scene and the values that it takes. The variants of a study are an axis
 // too, the first one: its key is `variant_axis`, and its values are their names.
 struct Variation {
@@ -38,7 +42,7 @@ struct Variation {
 
     // The assignments to the scene for the value with that number.
     Assignments assignments(std::size_t number) const;
-    std::string title() const { return unit.empty() ? label : label + " (" + unit + ")"; }
+    std::string title() const { return with_unit(label, unit); }
 };
 
 // How a column of measures.csv becomes one number.
@@ -57,7 +61,10 @@ struct StudyMeasure {
     std::string label;
     std::string column;  // column of measures.csv
     Reduction reduction;
-    std::string printed = {};  // the label on paper, with the unit; empty: the label
+    std::string unit = {};   // of the number, on charts; empty for none
+    std::string place = {};  // of its column in the study file, for messages
+
+    std::string title() const { return with_unit(label, unit); }
 };
 
 struct StudyChart {

@@ -6,6 +6,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/foreign/raw_series.hpp"
@@ -80,17 +81,16 @@ class Export final : public Verb {
         request.reading = reading_;
         const std::unique_ptr<FrameArchive> frames = open_frames(run_, request);
         for (const std::string& line : frames->news()) reporter.info(line);
-        const ShareWatcher watcher(reporter, Progress::Stage::paging);
+        const ShareWatcher watcher(reporter, Progress::Stage::exporting);
         const Exported made =
             export_frames(*frames, format_, out_.empty() ? usual_name() : out_, choice_, force_,
-                          [&](double done) { return watcher("writing frames", done); });
+                          [&](double done) { return watcher(format_, done); });
         if (choice_.at && std::abs(made.first - *choice_.at) > 1e-5 * std::abs(*choice_.at))
             reporter.info(
                 fmt::format("--at: {:.6g} s was not kept; {:.6g} s is written, the kept moment that "
                             "is nearest",
                             *choice_.at, made.first));
-        reporter.info(fmt::format("wrote {}: {} frame{}, {}", made.path.string(), made.frames,
-                                  made.frames == 1 ? "" : "s",
+        reporter.info(fmt::format("wrote {}: {}, {}", made.path.string(), counted(made.frames, "frame"),
                                   data_size_text(static_cast<double>(made.bytes))));
         print_exact(made.path.string() + "\n");
         return 0;

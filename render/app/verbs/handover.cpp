@@ -6,7 +6,9 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/carry.hpp"
@@ -41,7 +43,7 @@ class Handover final : public Verb {
                "job.slurm for sbatch, and\n"
                "handover.toml, which says what was changed and why. Its path goes to stdout.\n"
                "Then:   sh DIR/run.sh        or   cd DIR && sbatch job.slurm\n"
-               "        ./movie render DIR\n"
+               "        grainreel render DIR\n"
                "If the engine cannot do something, a message names each such line of the scene, and nothing "
                "is written.\n"
                "\n" +
@@ -134,17 +136,21 @@ class Handover final : public Verb {
         for (const CarryNote& note : carried.changes)
             reporter.info(
                 fmt::format("{}{}{}: {}", note.where, note.where.empty() ? "" : ": ", note.what, note.why));
+        if (carried.frame == RunFrame::container)
+            reporter.info(
+                "the deck and its dump are in the container's frame, where walls stand still and grains feel "
+                "minus its acceleration; what reads the folder here adds the motion again");
         if (!start.settled)
             reporter.warning("the grains had not come to rest when the time limit of settling ended");
         const double seconds =
             peer_seconds(carried.engine, carried.frame, carried.grains(),
                          carried.last - carried.first + carried.packing_steps, carried.ranks);
-        reporter.info(fmt::format("{} for {} on {} rank{}, about {} there; {} dumps", folder.string(),
-                                  name_of(carried.engine), carried.ranks, carried.ranks == 1 ? "" : "s",
-                                  duration_text(seconds), carried.dumps.size()));
+        reporter.info(fmt::format("{} for {} on {}, about {} there; {}", folder.string(),
+                                  name_of(carried.engine), counted(carried.ranks, "rank"),
+                                  duration_text(seconds), counted(carried.dumps.size(), "dump")));
         reporter.info(fmt::format("run it:      sh {}/run.sh, or on a cluster: cd {} && sbatch job.slurm",
                                   folder.string(), folder.string()));
-        reporter.info(fmt::format("draw it:     ./movie render {}", folder.string()));
+        reporter.info(fmt::format("draw it:     {} render {}", program_call(), folder.string()));
     }
 
     fs::path scene_;

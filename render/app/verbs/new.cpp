@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/shipped/shipped_scenes.hpp"
 #include "render/app/messages/reporter.hpp"
@@ -54,8 +55,8 @@ class New final : public Verb {
         if (file.extension() != ".toml") file += ".toml";
         check_free(file);
         replace_file(file, scene.text);
-        reporter.info(fmt::format("wrote {}, a copy of {}; change it, then: grainreel check {}",
-                                  file.string(), scene.name, file.string()));
+        reporter.info(fmt::format("wrote {}, a copy of {}; change it, then: {} check {}", file.string(),
+                                  scene.name, program_call(), shell_word(file.string())));
         print_exact(file.string() + "\n");
         return 0;
     }

@@ -7,6 +7,7 @@
 #include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/listener.hpp"
@@ -83,12 +84,9 @@ class Render final : public Verb {
             "--follow", follow_,
             "Film files of another program, or a scene that was handed over, while they grow: until the job "
             "ends, nothing new comes, or Ctrl-C");
-        parser
-            .add_option("--idle", idle_,
-                        "With --follow: end the film after this time in s without a new frame [60]")
-            ->needs(follow)
-            ->check(number_within(0.5, 1e6))
-            ->type_name("SECONDS");
+        add_time(parser, "--idle", idle_,
+                 "With --follow: end the film after this time without a new frame, as in 30s [60 s]")
+            ->needs(follow);
         for (CLI::Option* other : {at, frame, from, to, every}) follow->excludes(other);
         add_parts(parser, request_.parts, slurm_);
         for (const char* other : {"--part", "--parts", "--slurm"})
@@ -105,6 +103,7 @@ class Render final : public Verb {
     int run(Reporter& reporter) override {
         film_.command = command;
         check_print_size(request_.print, is_still(), "--at or --frame");
+        check_idle();
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
         if (follow_) return is_handover(request_.run) ? follow_job(reporter) : follow(reporter);
@@ -124,13 +123,22 @@ class Render final : public Verb {
     }
 
   private:
+    void check_idle() const {
+        constexpr double least = 0.5, most = 1e6;
+        if (idle_ && !(*idle_ >= least && *idle_ <= most))
+            throw UserError(fmt::format("--idle: must be a time from {} s to {:.0f} s, but is {:.6g} s",
+                                        least, most, *idle_));
+    }
+
+    double idle() const { return idle_.value_or(60); }
+
     bool is_still() const { return request_.at || request_.frame; }
 
     int follow_job(Reporter& reporter) const {
         if (const std::string option = given_reading(reading_); !option.empty())
             throw UserError(fmt::format("{}: is for files of other programs, and {} was handed over by us",
                                         option, request_.run.string()));
-        FollowJob film(film_, {request_.run, {}, request_.sets, folder_around(request_.run), idle_},
+        FollowJob film(film_, {request_.run, {}, request_.sets, folder_around(request_.run), idle()},
                        reporter);
         keep_camera_file(camera_, film.scene().film.camera);
         return tell_folder(film.run(), film_);
@@ -139,9 +147,10 @@ class Render final : public Verb {
     int follow(Reporter& reporter) const {
         std::error_code ignored;
         if (std::filesystem::exists(request_.run / "scene.toml", ignored))
-            throw UserError(
-                "--follow: is for files of other programs; a run of ours is shown by grainreel watch");
-        FollowRun film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle_},
+            throw UserError(fmt::format(
+                "--follow: is for files of other programs; a run of ours is shown by: {} watch {}",
+                program_call(), request_.run.string()));
+        FollowRun film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle()},
                        reporter);
         return tell_folder(film.run(), film_);
     }
@@ -175,7 +184,7 @@ class Render final : public Verb {
     ReadingOptions reading_;
     CameraFiles camera_;
     bool follow_ = false;
-    double idle_ = 60;
+    std::optional<double> idle_;  // s
     FilmRequest film_;
 };
 

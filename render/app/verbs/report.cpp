@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/check/print_plan.hpp"
@@ -154,8 +156,8 @@ class Report final : public Verb {
   private:
     int draw_charts(Reporter& reporter) const {
         const std::vector<fs::path> files = draw_run_charts(runs_, measures_, paper_.paper, *paper_.folder);
-        reporter.info(
-            fmt::format("wrote {} files of charts, {:g} mm wide", files.size(), paper_.paper.width_mm));
+        reporter.info(fmt::format("wrote {} of charts, {:g} mm wide", counted(files.size(), "file"),
+                                  paper_.paper.width_mm));
         print_exact(paper_.folder->string() + "\n");
         return 0;
     }
@@ -171,7 +173,7 @@ class Report final : public Verb {
                 fmt::format("--out {}: there is no folder {}; make it first", out.string(), folder.string()));
         if (fs::is_directory(out, ignored))
             throw UserError(fmt::format("--out {}: is a folder; name a file, as in {}", out.string(),
-                                        (out / "report.html").string()));
+                                        (out / kPageName).string()));
         if (out.extension() != ".html")
             throw UserError(fmt::format("--out {}: a page's name ends in .html", out.string()));
     }

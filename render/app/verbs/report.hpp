@@ -13,8 +13,6 @@
 
 namespace grainreel {
 
-inline constexpr const char* kPageName = "report.html";
-
 // Makes the page of the runs in these folders, side by side where there are several. out: the page's file;
 // empty: report.html in the first run's folder. checked: this program has just written the runs, so their
 // frames need no check for damage. Returns none when `progress` stopped it. Throws UserError for a folder

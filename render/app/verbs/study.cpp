@@ -8,6 +8,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
@@ -92,10 +93,13 @@ class StudyVerb final : public Verb {
             references.push_back(chart.reference ? read_reference(*chart.reference)
                                                  : std::vector<ReferencePoint>());
         StudyEstimate estimate(request_.jobs, request_.films, dry_);
+        EmptyColumns empty(study);
         members_ = make_members(study, [&](const FilmedScene& scene, const Plan& plan) {
             estimate.add_setting(scene, plan);
+            empty.add_setting(scene);
             if (shortest_packing_) sharing_.add_setting(scene, plan);
         });
+        empty.check();
         folder_.path =
             std::filesystem::absolute(out_.value_or(output_base() / study.file.stem())).lexically_normal();
         check_folder();
@@ -169,18 +173,19 @@ class StudyVerb final : public Verb {
         std::size_t settings = 0;
         for (const Member& member : members_) settings = std::max(settings, member.setting + 1);
         // With variants the number of members is no product, since a variant may have seeds of its own.
-        std::string reckoned = fmt::format("{} settings with their seeds", settings);
+        std::string reckoned = fmt::format("{} with their seeds", counted(settings, "setting"));
         if (!study.has_variants())
-            reckoned = fmt::format("{} settings x {} seeds", settings, study.seed_count({}));
+            reckoned =
+                fmt::format("{} x {}", counted(settings, "setting"), counted(study.seed_count({}), "seed"));
         std::string text =
             fmt::format("study        {}: {}\nscene        {}\nfolder       {}\n", study.file.string(),
                         study.title, study.scene.string(), folder_.path.string());
         for (const Variation& variation : study.variations)
             text += variation.key == variant_axis
                         ? fmt::format("variants     {}\n", names_of(variation))
-                        : fmt::format("vary         {}: {} values, {} to {}\n", variation.key,
-                                      variation.values.size(), variation.values.front().words,
-                                      variation.values.back().words);
+                        : fmt::format("vary         {}: {}, {} to {}\n", variation.key,
+                                      counted(variation.values.size(), "value"),
+                                      variation.values.front().words, variation.values.back().words);
         text += fmt::format("members      {} = {}, {} of them to be run\n", members_.size(), reckoned,
                             left.size());
         if (const std::string packings = sharing_.text(); !packings.empty())
@@ -251,7 +256,8 @@ class StudyVerb final : public Verb {
                      study_page(study, members_, results_, folder_, charts.stems));
         if (!paper_.folder) return;
         const auto files = print_charts(study, members_, results_, references, paper_.paper, *paper_.folder);
-        reporter.info(fmt::format("wrote {} files of charts into {}", files.size(), paper_.folder->string()));
+        reporter.info(fmt::format("wrote {} of charts into {}", counted(files.size(), "file"),
+                                  paper_.folder->string()));
     }
 
     int tell_end(const Study& study, Reporter& reporter) const {

@@ -6,6 +6,7 @@
 #include <CLI/App.hpp>
 
 #include "engine/base/error.hpp"
+#include "engine/files/frames/saved_scene.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/report.hpp"
 #include "render/app/verbs/verbs.hpp"
@@ -40,9 +41,8 @@ class WatchVerb final : public Verb {
 
     int run(Reporter& reporter) override {
         check_typed("RUN", run_.string());
+        folder_of_run(run_);
         std::error_code ignored;
-        if (!fs::is_directory(run_, ignored))
-            throw UserError(fmt::format("{}: no such folder; give the folder of a run", run_.string()));
         const bool begins = socket_.has_value();  // the run's files are still to come
         if (!begins && !fs::exists(run_ / "run.json", ignored))
             throw UserError(

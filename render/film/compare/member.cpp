@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/driver/also_exports.hpp"
@@ -136,8 +137,8 @@ void check_count(std::size_t count, const CompareRequest& what) {
         throw UserError(fmt::format("--vary: has {} values; a film shows {} at most", count, most_panels));
     if (count < 2 || count > most_panels)
         throw UserError(fmt::format(
-            "compare takes 2 to {} scenes or folders of runs, not {}{}; see grainreel compare --help",
-            most_panels, count, count == 1 ? " (or one with --vary KEY=VALUE,VALUE)" : ""));
+            "compare takes 2 to {} scenes or folders of runs, not {}{}; see {} compare --help",
+            most_panels, count, count == 1 ? " (or one with --vary KEY=VALUE,VALUE)" : "", program_call()));
 }
 
 std::vector<Input> inputs_of(const CompareRequest& what) {

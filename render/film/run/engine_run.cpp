@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
@@ -312,14 +313,14 @@ std::string EngineRun::stopped_text() const {
 
 void EngineRun::report_written() {
     desk_.listener.info(fmt::format(
-        "wrote {}: {}trajectory.nc ({} frames), measures.csv, final.csv, {}/ (deck, dump and output of {}), "
+        "wrote {}: {}trajectory.nc ({}), measures.csv, final.csv, {}/ (deck, dump and output of {}), "
         "run.json, log.txt{}",
-        folder().string(), film_.files_text(), desk_.record.trajectory_frames, ReturnedRun::kFolder,
-        name_of(carried_.engine), page_text()));
+        folder().string(), film_.files_text(), counted(desk_.record.trajectory_frames, "frame"),
+        ReturnedRun::kFolder, name_of(carried_.engine), page_text()));
     desk_.listener.info(
-        fmt::format("took {}: packing {}, {} {} on {} ranks {} ({:.1f} M particle-steps/s)",
+        fmt::format("took {}: packing {}, {} {} on {} {} ({:.1f} M particle-steps/s)",
                     duration_text(desk_.watch.seconds()), duration_text(desk_.times.of("packing")),
-                    name_of(carried_.engine), job_.program().version, carried_.ranks,
+                    name_of(carried_.engine), job_.program().version, counted(carried_.ranks, "rank"),
                     duration_text(desk_.times.of("engine")), desk_.record.particle_steps_per_second * 1e-6));
 }
 

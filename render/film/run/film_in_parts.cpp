@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/run_json.hpp"
@@ -333,8 +334,9 @@ bool join_parts(const JoinRequest& request, RunListener& listener) {
     const auto go_on = [&] { return listener.stop_signal() == 0; };
     const JoinEnd end = join_films(pieces, codec_of(format), parts.front().record.rate, request.out, go_on);
     if (end == JoinEnd::stopped) return false;
-    listener.info(fmt::format("wrote {}: {} frames of {} parts", request.out.string(),
-                              parts.front().record.all_frames, parts.size()));
+    listener.info(fmt::format("wrote {}: {} of {}", request.out.string(),
+                              counted(parts.front().record.all_frames, "frame"),
+                              counted(parts.size(), "part")));
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_names.hpp"
@@ -98,11 +99,12 @@ void FolderFilm::show_progress() {
 
 std::string FolderFilm::files_text() const {
     std::string text;
-    if (!result_.file.empty()) text += fmt::format("{} ({} frames), ", result_.file, result_.frames);
-    if (request_.to_stdout) text += fmt::format("to stdout {} frames, ", result_.frames);
+    if (!result_.file.empty())
+        text += fmt::format("{} ({}), ", result_.file, counted(result_.frames, "frame"));
+    if (request_.to_stdout) text += fmt::format("to stdout {}, ", counted(result_.frames, "frame"));
     if (result_.poster) text += "poster.png, ";
     if (result_.sheet) text += "sheet.png, ";
-    if (result_.pictures) text += fmt::format("frames/ ({} pictures), ", result_.frames);
+    if (result_.pictures) text += fmt::format("frames/ ({}), ", counted(result_.frames, "picture"));
     return text;
 }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
@@ -61,9 +62,12 @@ FollowJob::FollowJob(const FilmRequest& request, const FollowRequest& what, RunL
 void FollowJob::wait_for_first() {
     while (!back_->take_next()) {
         const JobEnd job = job_end(what_.from, facts_);
-        if (job.ended && !back_->take_next())
-            throw UserError(fmt::format("{}: has no whole moment; {}", facts_.dump.string(),
-                                        job.failure.empty() ? "the job has ended" : job.failure));
+        if (job.ended && !back_->take_next()) {
+            if (!job.failure.empty())
+                throw RunError(fmt::format("{}: has no whole moment; {}", facts_.dump.string(), job.failure));
+            throw UserError(
+                fmt::format("{}: has no whole moment, and the job has ended", facts_.dump.string()));
+        }
         if (job.ended) break;
         if (idle_.seconds() >= what_.idle || stopped())
             throw UserError(fmt::format(
@@ -202,7 +206,7 @@ void FollowJob::side_work_closed() {
 }
 
 std::string FollowJob::stopped_text() const {
-    return fmt::format("stopped after {} frames", film_.result().frames);
+    return fmt::format("stopped after {}", counted(film_.result().frames, "frame"));
 }
 
 void FollowJob::report_written() {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "render/film/sources/film_request.hpp"
@@ -147,8 +148,8 @@ bool FollowRun::work() {
     desk_.record.scene_file = what_.from.string();
     begin_record(frames_->news());
     desk_.listener.info(
-        fmt::format("{}: {} frames so far; the film ends {:.3g} s after the last one, or with Ctrl-C",
-                    what_.from.string(), frames_->moments().size(), what_.idle));
+        fmt::format("{}: {} so far; the film ends {:.3g} s after the last one, or with Ctrl-C",
+                    what_.from.string(), counted(frames_->moments().size(), "frame"), what_.idle));
     film_.open(scene_, static_cast<std::int64_t>(frames_->moments().size()),
                std::make_shared<const Frame>(frames_->first_whole()));
     Steady::time_point last = Steady::now();
@@ -159,8 +160,8 @@ bool FollowRun::work() {
         if (seconds_since(last) >= what_.idle) {
             if (wrong_.empty() && !draw_new(true)) return false;
             if (wrong_.empty()) break;
-            throw RunError(
-                fmt::format("{} ({} frames were drawn; it was truncated or replaced)", wrong_, drawn_));
+            throw RunError(fmt::format("{} (after {} of the film; it was truncated or replaced)", wrong_,
+                                       counted(drawn_, "frame")));
         }
         const Steady::time_point begin = Steady::now();
         look_again();
@@ -174,7 +175,7 @@ bool FollowRun::work() {
 }
 
 std::string FollowRun::stopped_text() const {
-    return fmt::format("stopped after {} frames", film_.result().frames);
+    return fmt::format("stopped after {}", counted(film_.result().frames, "frame"));
 }
 
 void FollowRun::report_written() {

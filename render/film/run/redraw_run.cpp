@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
@@ -253,8 +254,8 @@ void RedrawRun::report_written() {
     const std::vector<Shot> shots = drawn();
     desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
     desk_.listener.info(
-        fmt::format("took {}: {} frames of {}, from {:.6g} to {:.6g} s", duration_text(desk_.watch.seconds()),
-                    film_.result().frames, source_.record().frames().folder().string(),
+        fmt::format("took {}: {} of {}, from {:.6g} to {:.6g} s", duration_text(desk_.watch.seconds()),
+                    counted(film_.result().frames, "frame"), source_.record().frames().folder().string(),
                     film.moment(shots.front().step).time, film.moment(shots.back().step).time));
 }
 

@@ -146,6 +146,8 @@ bool RevisitedRun::wants_touches() const {
     return needs_touches(scene().film.shows);
 }
 
+// An exposure and a mean want moments between the pictures, which no run keeps. Without checkpoints they are
+// left out, and single_moment_warnings() tells the user so with the place in the scene.
 std::vector<FilmSegment> RevisitedRun::segments() const {
     std::vector<FilmSegment> segments = segments_of(scene().film);
     return reachable_.brings_all_back() ? segments : of_single_moments(std::move(segments));

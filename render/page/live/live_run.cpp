@@ -11,6 +11,7 @@
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_json.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/measure/columns.hpp"
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_file.hpp"
@@ -226,7 +227,7 @@ void LiveRun::make_state() {
         {"time", time_},    {"end", end},
         {"done", share},    {"picture", pictures_},
         {"bed", bed_step_}, {"bed_time", bed_time_},
-        {"rows", rows_},    {"report", !gone_ && fs::exists(folder_ / "report.html", ignored)}};
+        {"rows", rows_},    {"report", !gone_ && fs::exists(folder_ / kPageName, ignored)}};
     const double left = begun ? remaining(time_, end) : -1;
     state["remaining"] = left >= 0 ? nlohmann::json(left) : nlohmann::json();
     auto text = shared(state.dump());
@@ -256,7 +257,7 @@ std::string live_page(const FilmedScene& scene, const std::filesystem::path& fol
                                {"lead", lead_html(scene)},
                                {"live", std::string(files.live)},
                                {"body", body},
-                               {"words", chapters_html(scene, record, planned, folder, "report.html")},
+                               {"words", chapters_html(scene, record, planned, folder, kPageName)},
                                {"facts", json_in_html(live_facts_json(scene))},
                                {"script", files.script(!scene.meshes.empty())},
                                {"blobs", ""}});

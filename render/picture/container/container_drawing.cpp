@@ -195,16 +195,21 @@ std::optional<Fall> fall_below_outlet(const FilmedScene& scene, const View& view
     return Fall{Vec3(0, 0, 0), Vec3(0, 0, -c.outlet->exit_depth), lowest_of_floor(scene, view)};
 }
 
-// The fall of grains that leave below all meshes.
+// The fall of grains that leave below all meshes. Where the drive moves a mesh, the meshes count as far down
+// as its stroke reaches.
 std::optional<Fall> fall_into_exit(const FilmedScene& scene, const View& view,
                                    const std::vector<Vec3>& meshes) {
     const std::optional<double> end = exit_level(scene);
     if (!end || meshes.empty()) return std::nullopt;
+    const bool driven = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                    [](const SceneMesh& mesh) { return mesh.driven; });
+    const Vec3 stroke = driven ? drawn_stroke(scene) : Vec3(0, 0, 0);
     double lowest = meshes.front().z(), row = 0;
-    for (const Vec3& point : meshes) {
-        lowest = std::min(lowest, point.z());
-        row = std::max(row, view.project(point).y());
-    }
+    for (const Vec3& point : meshes)
+        for (const double way : {-1.0, 1.0}) {
+            lowest = std::min(lowest, point.z() + way * stroke.z());
+            row = std::max(row, view.project(point + way * stroke).y());
+        }
     if (*end >= lowest) return std::nullopt;
     const Vec3 middle = extent_of(scene).middle();
     return Fall{{middle.x(), middle.y(), lowest}, {middle.x(), middle.y(), *end}, row};

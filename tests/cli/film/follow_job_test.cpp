@@ -207,6 +207,32 @@ TEST_F(FollowedJob, IsExportedBeforeItWasDrawn) {
     EXPECT_THAT(ended.err, HasSubstr("6 frames"));
 }
 
+TEST_F(FollowedJob, OneThatDiedBeforeItsFirstMomentSaysWhy) {
+    job_ends(1, "LAMMPS (29 Sep 2021)\nERROR: Unknown command: nonsense (../input.cpp:274)\n");
+    for (const Words& words : {follow("300"), Words{"render", "job"}, Words{"inspect", "job"}}) {
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 1) << words.front() << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr("LAMMPS ended: "));
+        EXPECT_THAT(ended.err, HasSubstr("Unknown command: nonsense"));
+        EXPECT_THAT(ended.err, testing::Not(HasSubstr("has not run yet")));
+    }
+    EXPECT_FALSE(fs::exists(here / "film"));
+}
+
+// Whoever draws a second time has not read what the first drawing said.
+TEST_F(FollowedJob, EachVerbSaysWhyTheRunIsShort) {
+    add(0, 6);
+    job_ends(143);
+    for (const Words& words : {Words{"render", "job", "--out", "first"},
+                               {"render", "job", "--out", "second"},
+                               {"inspect", "job"}}) {
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr("LAMMPS was asked to end by a signal (Ctrl-C, scancel or a time "
+                                         "limit); it has come to 0.05 s of "));
+    }
+}
+
 TEST_F(FollowedJob, IsToldToRunFirst) {
     for (const char* verb : {"inspect", "render"}) {
         const Ended ended = program({verb, "job"});

@@ -388,10 +388,18 @@ TEST_F(RenderProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     fs::copy(here / "run", here / "silent");
     fs::remove(here / "silent/trajectory.nc");
     write_text(here / "taken.png", "mine");
+    write_text(here / "empty.dump", "");
+    write_text(here / "note.txt", "Buy sand.\n");
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
         {{"render"}, "RUN is required"},
         {{"render", "nowhere"}, "nowhere: no such folder; give the folder of a run"},
-        {{"render", "run.toml"}, "run.toml: no such folder"},
+        {{"render", "run.toml"},
+         "run.toml: is a file; give the folder of a run, or run the scene: grainreel movie run.toml"},
+        {{"render", "empty.dump"},
+         "empty.dump: is an empty file; give the folder of a run, or files of other programs: LAMMPS,"},
+        {{"render", "note.txt", "--radius", "2 mm"}, "note.txt: is a file of no format that is read here"},
+        {{"render", "run/trajectory.nc"},
+         "run/trajectory.nc: is the trajectory.nc of a run; give the folder of its run"},
         {{"render", "empty"}, "empty: has no scene.toml"},
         {{"render", "silent"}, "silent: has no trajectory.nc"},
         {{"render", "cut"}, "cut/trajectory.nc: was cut off: of its 7 frames 4 are whole"},

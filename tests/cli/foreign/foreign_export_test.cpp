@@ -115,6 +115,10 @@ TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
             }
         }
     }
+    const Ended one = program(
+        {"export", "ours", "--to", "csv", "--at", "0", "--out", "one.csv", "--progress", "json"});
+    EXPECT_THAT(one.err, HasSubstr(R"("stage":"exporting")"));
+    EXPECT_THAT(one.err, HasSubstr("wrote one.csv: 1 frame, "));
     const Ended both = program(
         {"compare", "ours", "through-lammps-dump", "--at", "0.01", "--size", "640x360", "--out", "both"});
     EXPECT_EQ(both.status, 0) << both.err;

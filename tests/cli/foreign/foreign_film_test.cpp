@@ -187,7 +187,7 @@ TEST_F(ForeignFilm, FollowsAFileThatGrows) {
             out << text.substr(text.size() / 2);
         }
     });
-    const Ended ended = timed({"render", "growing.dump", "--follow", "--idle", "6", "--size", "160x120"});
+    const Ended ended = timed({"render", "growing.dump", "--follow", "--idle", "6s", "--size", "160x120"});
     writer.join();
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_EQ(decoded_pictures(here / "growing.dump-render/movie.mp4"), 5) << ended.err;

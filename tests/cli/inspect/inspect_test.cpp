@@ -631,7 +631,9 @@ TEST_F(InspectedMoment, AFileThatIsNoStateIsToldInOneLine) {
         EXPECT_EQ(ended.status, 2) << ended.out;
         return ended.err;
     };
-    EXPECT_THAT(refused("run/log.txt"), HasSubstr("holds no frames that can be read"));
+    EXPECT_THAT(refused("run/log.txt"),
+                HasSubstr("holds no frames that can be read; give the folder of a run (scene.toml and "
+                          "trajectory.nc), or the trajectory.nc of a run, or "));
     EXPECT_THAT(refused("run/final.csv", {"--wall", "floor"}), HasSubstr("has no checkpoints"));
     std::filesystem::resize_file(folder / "run/checkpoint.grs", 3000);
     EXPECT_THAT(refused("run/checkpoint.grs"), HasSubstr("checkpoint"));

@@ -221,7 +221,7 @@ TEST_F(ReportProgram, SaysWhichFilesLackOrAreDamaged) {
     const std::string rows = text_of(here / "run/measures.csv");
     const std::size_t second = rows.find('\n', rows.find('\n') + 1) + 1;
     EXPECT_THAT(damaged("measures.csv", rows.substr(0, second) + "x\n" + rows.substr(second)),
-                HasSubstr("warning: copy/measures.csv:3: has 1 numbers, but there are "));
+                HasSubstr("warning: copy/measures.csv:3: has 1 number, but there are "));
     EXPECT_THAT(damaged("measures.csv", rows.substr(0, second)),
                 testing::ContainsRegex("warning: copy/measures.csv: has 1 of the [0-9]+ rows"));
     EXPECT_THAT(damaged("measures.csv", "step,cycles\n1,2\n"),
@@ -337,6 +337,9 @@ TEST_F(ReportProgram, MistakesAreOneLineAndWriteNothing) {
         EXPECT_EQ(ended.out, "");
     };
     expect_mistake({"report", "nowhere"}, "nowhere: no such folder");
+    write_text(here / "a.toml", small_scene_text);
+    expect_mistake({"report", "a.toml"},
+                   "a.toml: is a file; give the folder of a run, or run the scene: grainreel movie a.toml");
     fs::create_directory(here / "empty");
     expect_mistake({"report", "empty"}, "empty: has no scene.toml");
     run({"--no-film", "--no-report"});

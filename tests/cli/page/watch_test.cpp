@@ -198,6 +198,9 @@ TEST_F(Watched, MistakesAreOneLineAndStatusTwo) {
     expect_mistake({"movie", "fifty.toml", "--out", "new", "--watch", port_taken}, in_use);
     EXPECT_FALSE(fs::exists(here / "new"));
     expect_mistake({"watch", "nowhere"}, "nowhere: no such folder");
+    expect_mistake({"watch", "fifty.toml"},
+                   "fifty.toml: is a file; give the folder of a run, or run the scene: grainreel movie "
+                   "fifty.toml");
     fs::create_directory(here / "empty");
     expect_mistake({"watch", "empty"}, "empty: holds no run");
     expect_mistake({"watch", "run", "--port", "high"}, "--port high: is no port");

@@ -7,14 +7,20 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
+#include "engine/files/folder_lock.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/driver/packing_cache.hpp"
+#include "engine/run/driver/run_driver.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "render/app/options/option_groups.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_disk.hpp"
 #include "tests/cli/small_scene.hpp"
@@ -191,6 +197,22 @@ TEST(KeptPacking, IsBelievedInNothing) {
 
 // ---- the program
 
+// A variable of the environment of this process, until the end of a test.
+class Variable {
+  public:
+    Variable(const char* name, const std::string& value) : name_(name) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        ::setenv(name, value.c_str(), 1);
+    }
+    ~Variable() { before_ ? ::setenv(name_, before_->c_str(), 1) : ::unsetenv(name_); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+  private:
+    const char* name_;
+    std::optional<std::string> before_;
+};
+
 class PackingProgram : public testing::Test {
   protected:
     Program::Setting setting(const std::string& packings = "all") const {
@@ -236,8 +258,36 @@ TEST_F(PackingProgram, FindsThePackingAndTheRunIsTheSame) {
     expect_same("first", "third");
 }
 
-TEST_F(PackingProgram, KeepsNothingOfWhatIsShortOrNotWanted) {
-    EXPECT_EQ(movie("short", {}, "").status, 0);  // the usual case: packing takes longer than a second
+// Packs in a folder of its own and keeps packings that take at least so long (s).
+void pack_and_keep_from(double shortest, const fs::path& folder) {
+    const Scene scene = scene_with({});
+    fs::create_directory(folder);
+    const FolderLock lock = std::move(*FolderLock::take(folder, "test"));
+    RunDriver driver(scene, make_plan(scene), 1);
+    driver.use_folder(lock, "test");
+    driver.keep_packings(shortest);
+    EXPECT_TRUE(driver.pack([](const PackingProgress&) { return true; }));
+}
+
+// How long a packing takes depends on the machine, so the limits here are below and above all times.
+TEST_F(PackingProgram, KeepsOnlyWhatTakesAsLongAsTheLimit) {
+    const Variable cache("XDG_CACHE_HOME", (here / "cache").string());
+    constexpr double year = 3e7;
+    pack_and_keep_from(year, here / "short");
+    EXPECT_TRUE(kept().empty());
+    pack_and_keep_from(0, here / "long");
+    EXPECT_EQ(kept().size(), 1u);
+}
+
+TEST_F(PackingProgram, TheUsualLimitIsASecond) {
+    const Variable packings("GRAINREEL_PACKINGS", "");
+    CLI::App verb;
+    std::optional<double> shortest;
+    add_no_cache(verb, shortest);
+    EXPECT_EQ(shortest, 1.0);
+}
+
+TEST_F(PackingProgram, KeepsNothingOfWhatIsNotWanted) {
     EXPECT_EQ(movie("off", {}, "off").status, 0);
     EXPECT_EQ(movie("not", {"--no-cache"}).status, 0);
     EXPECT_TRUE(kept().empty());

@@ -15,6 +15,11 @@
 #include "engine/base/error.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
+#include "engine/measure/columns.hpp"
+#include "engine/run/folder/listener.hpp"
+#include "render/app/verbs/report.hpp"
+#include "render/film/run/movie_run.hpp"
+#include "render/scene/filmed_scene.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
@@ -306,6 +311,37 @@ TEST_F(ResumedRun, WithoutOneOfItsFilesItIsRefusedAndLeftAsItIs) {
                 EXPECT_EQ(text_of(here / "run" / other) == text_of(here / "whole" / other), true) << other;
             }
         }
+}
+
+// The user asks the run to stop when its grains are packed and its drive has not begun.
+class StoppedAtOnce final : public SilentListener {
+  public:
+    int stop_signal() const override { return SIGINT; }
+};
+
+TEST_F(ResumedRun, OneThatWasStoppedJustAfterPackingGoesOn) {
+    ASSERT_EQ(run(movie("packed", {"--duration", "0.05 s", "--no-film"})).status, 0);
+    // A start from a checkpoint is over before the run looks at the signal, as the end of a packing is.
+    const Words sets = {"start.method=file", "start.file=" + (here / "packed/checkpoint.grs").string()};
+    Words words = {"movie", "fifty.toml", "--out", "whole"};
+    for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
+    ASSERT_EQ(run(words).status, 0);
+    const FilmedScene made = read_filmed_scene(scene, Assignments(sets.begin(), sets.end()), measurable_in);
+    FilmRequest request;
+    request.out = here / "run";
+    request.page = page_of_ended_run();
+    StoppedAtOnce listener;
+    {
+        MovieRun stopped(request, listener, made, plan_with_film(made));
+        EXPECT_EQ(stopped.run().exit_status, 130);
+    }
+    EXPECT_EQ(record("run")["status"], "interrupted");
+    EXPECT_EQ(record("run")["engine"]["steps"], 0);
+    ASSERT_TRUE(fs::exists(here / "run/checkpoint.grs"));
+    const Ended ended = run({"resume", "run"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("goes on from 0 s to 0.2 s"));
+    expect_same("whole", "run");
 }
 
 // If the last checkpoint is lost, the rows tell how far the run came.

@@ -54,6 +54,15 @@ TEST_F(CheckProgram, ReadsAPipe) {
     EXPECT_THAT(ended.out, HasSubstr("Fifty grains"));
 }
 
+TEST_F(CheckProgram, NamesOnlyWhatIsKept) {
+    const auto kept = [&](const std::string& set) { return check({"fifty.toml", "--set", set}).out; };
+    EXPECT_THAT(kept("output.film_moments=true"), HasSubstr("comes back: checkpoints up to "));
+    EXPECT_THAT(kept("output.film_moments=true"), HasSubstr(", moments of the film "));
+    EXPECT_THAT(kept("output.film_moments=false"), HasSubstr("comes back: checkpoints up to "));
+    EXPECT_THAT(kept("output.film_moments=false"), Not(HasSubstr("moments of the film")));
+    EXPECT_THAT(kept("output.checkpoints=none"), HasSubstr("comes back: moments of the film "));
+}
+
 // With a given damping every size has a restitution of its own; a given restitution holds for all sizes.
 TEST_F(CheckProgram, TellsTheRestitutionOfAllSizes) {
     const std::string spread = "species.small.diameter={ min = \"1 mm\", max = \"4 mm\" }";

@@ -31,5 +31,31 @@ TEST(Options, FoldersAreNamedInUtf8) {
     EXPECT_THAT(named.err, testing::HasSubstr("GRAINREEL_OUTPUT: \"\\xff\" is not UTF-8 at byte 1"));
 }
 
+// Each option that is a time takes it as a scene does, and as a plain number in s.
+TEST(Options, TimesMayHaveUnits) {
+    const TemporaryFolder here;
+    write_small_scene(here.path());
+    const auto said = [&](std::vector<std::string> words, const std::string& flag, const std::string& time) {
+        words.insert(words.end(), {flag, time});
+        return run_program(words, {here.path()}).err;
+    };
+    const std::vector<std::pair<std::vector<std::string>, std::string>> options = {
+        {{"render", "gone"}, "--at"},  {{"render", "gone"}, "--from"},
+        {{"render", "gone"}, "--to"},  {{"render", "gone", "--follow"}, "--idle"},
+        {{"inspect", "gone"}, "--at"}, {{"export", "gone", "--to", "csv"}, "--until"},
+        {{"resume", "gone"}, "--for"}, {{"compare", "gone", "gone"}, "--at"},
+    };
+    for (const auto& [words, flag] : options) {
+        for (const char* time : {"0.5", "0.5s", "0.5 s", "500ms"})
+            EXPECT_THAT(said(words, flag, time), testing::StartsWith("error: gone: ")) << flag << " " << time;
+        EXPECT_THAT(said(words, flag, "3 kg"),
+                    testing::HasSubstr(flag + " must be a time, but \"3 kg\" is a mass"));
+    }
+    for (const char* time : {"0.5", "0.5s", "0.5 s", "500ms"})
+        EXPECT_EQ(run_program({"check", "fifty.toml", "--duration", time}, {here.path()}).status, 0) << time;
+    EXPECT_EQ(said({"render", "gone", "--follow"}, "--idle", "100 ms"),
+              "error: --idle: must be a time from 0.5 s to 1000000 s, but is 0.1 s\n");
+}
+
 }  // namespace
 }  // namespace grainreel

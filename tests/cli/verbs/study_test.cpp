@@ -263,11 +263,49 @@ TEST_F(StudyVerb, MistakesWriteNothing) {
     EXPECT_EQ(unknown.status, 2);
     EXPECT_THAT(unknown.err, HasSubstr("study.toml:5:1: unknown key 'gee'"));
     EXPECT_FALSE(fs::exists(out()));
+    const Ended none = run_program({"study", "none.toml"}, {});
+    EXPECT_EQ(none.err, "error: none.toml: there is no such file; give the path of a study (.toml)\n");
+    const Ended no_scene = run_program(words(write(replaced(four_members, "fifty.toml", "sixty.toml"))), {});
+    EXPECT_THAT(no_scene.err,
+                HasSubstr("study.toml:1:1: 'scene' is \"sixty.toml\", but there is no such file"));
     fs::create_directory(out());
     write_text(out() / "thesis.txt", "all of it");
     const Ended taken = run_program(words(write(four_members)), {});
     EXPECT_EQ(taken.status, 2);
     EXPECT_THAT(taken.err, HasSubstr("holds something that is no study"));
+}
+
+// A column that stays empty in all settings is refused before anything runs; one that has values in some of
+// them is not.
+TEST_F(StudyVerb, MeasuresNoColumnThatStaysEmpty) {
+    const std::string lacey = replaced(four_members, "column = \"kinetic\"", "column = \"lacey\"");
+    const std::string one = "species=[{name=\"all\", count=20, diameter=\"4 mm\", density=2500}]";
+    const auto said = [&](const std::string& text) {
+        return run_program(words(write(text), {"--dry-run"}), {});
+    };
+    EXPECT_EQ(said(lacey).status, 0);
+    const Ended empty = said(replaced(lacey, "set = [", "set = ['" + one + "', "));
+    EXPECT_EQ(empty.status, 2);
+    EXPECT_THAT(empty.err,
+                HasSubstr("study.toml:9:1: 'lacey' has no value here: it compares two species, and "
+                          "the scene has one; measure another column"));
+    const std::string variants = "[[variant]]\nname = \"one\"\nset = ['" + one +
+                                 "']\n[[variant]]\nname = \"two\"\nset = []\n[[measure]]";
+    EXPECT_EQ(said(replaced(lacey, "[[measure]]", variants)).status, 0);
+}
+
+TEST_F(StudyVerb, AStudyIsNoSceneAndASceneNoStudy) {
+    const Program::Setting here{folder_.path(), {}};
+    write(four_members);
+    for (const std::string verb : {"movie", "check"})
+        EXPECT_EQ(run_program({verb, "study.toml", "--set", "drive.g_level=2"}, here).err,
+                  "error: study.toml: this is a study, not a scene; run it by: grainreel study study.toml\n");
+    EXPECT_EQ(run_program({"study", "fifty.toml"}, here).err,
+              "error: fifty.toml: this is a scene, not a study; run it by: grainreel movie fifty.toml\n");
+    // A script that calls the program says how its user calls it.
+    const Program::Setting by_script{folder_.path(), {"GRAINREEL_CALLED=./movie"}};
+    EXPECT_EQ(run_program({"study", "fifty.toml"}, by_script).err,
+              "error: fifty.toml: this is a scene, not a study; run it by: ./movie movie fifty.toml\n");
 }
 
 // One drive runs after the other. With rain, and with stiffness and step given, the second begins with the

@@ -55,5 +55,24 @@ TEST(Verbs, NameTheOptionThatWasMeant) {
               "error: unknown option '--xylophone'; see grainreel check --help\n");
 }
 
+TEST(Verbs, ShowTheirOwnHelpToAMistake) {
+    EXPECT_THAT(run_program({"movie", "a.toml", "--seed"}, {}).err, HasSubstr("; see grainreel movie --help"));
+    EXPECT_THAT(run_program({"render"}, {}).err, HasSubstr("RUN is required; see grainreel render --help"));
+    EXPECT_THAT(run_program({"--no-such"}, {}).err, HasSubstr("; see grainreel --help"));
+}
+
+TEST(Verbs, AreNamedAsTheUserCallsTheProgram) {
+    const Program::Setting by_script{".", {"GRAINREEL_CALLED=../a tree/movie"}};
+    EXPECT_THAT(run_program({"render"}, by_script).err,
+                HasSubstr("RUN is required; see '../a tree/movie' render --help"));
+    EXPECT_THAT(run_program({"moovie"}, by_script).err, HasSubstr("see '../a tree/movie' --help"));
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--help"}, {"new", "--help"}, {"inspect", "--help"}}) {
+        const std::string help = run_program(words, by_script).out;
+        EXPECT_THAT(help, HasSubstr("'../a tree/movie' "));
+        EXPECT_THAT(help, testing::Not(HasSubstr("grainreel ")));
+    }
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
@@ -116,11 +117,11 @@ TextFrames::Passed MercuryData::pass_over(TextLines& lines, RawMoment& moment) {
         const std::size_t words = count_words(lines.text(), columns() + 1);
         if (words < columns() && !lines.ended()) return Passed::cut;
         if (words != columns())
-            lines.fault(
-                fmt::format("row {} of {} has {} numbers in place of {}; line {} says {} grains: is that "
-                            "right?",
-                            i + 1, header->grains, words > columns() ? "more" : std::to_string(words),
-                            columns(), first, header->grains));
+            lines.fault(fmt::format(
+                "row {} of {} has {} in place of {}; line {} says {}: is that "
+                "right?",
+                i + 1, header->grains, words > columns() ? "more numbers" : counted(words, "number"),
+                columns(), first, counted(header->grains, "grain")));
     }
     moment.grains = header->grains;
     moment.time = header->time;

@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
@@ -118,8 +120,8 @@ void NumberTable::refuse_measures() const {
     if (has("step") && has("time_s") && has("cycles") && !has("x") && !has("x_m"))
         throw UserError(fmt::format(
             "{}: is the table of measures of a run of ours, a row a moment, and holds no grains; name "
-            "the run's folder, or draw its columns by grainreel chart",
-            lines_.file().string()));
+            "the run's folder, or make its charts by: {} report DIR --charts charts",
+            lines_.file().string(), program_call()));
 }
 
 // Finds the columns of time and step. If two columns fit, the first is taken.
@@ -157,8 +159,8 @@ bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
         return false;
     }
     if (cells_.size() != layout_.names.size())
-        lines_.fault(
-            fmt::format("this row has {} columns in place of {}", cells_.size(), layout_.names.size()));
+        lines_.fault(fmt::format("this row has {} in place of {}", counted(cells_.size(), "column"),
+                                 layout_.names.size()));
     last_ = clock ? clock_of(*clock) : 0.0;
     FrameRows& frame = frames[last_];
     RawMoment& moment = frame.moment;

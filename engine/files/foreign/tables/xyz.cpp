@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
@@ -307,8 +308,8 @@ std::vector<ColumnFiller> XyzFile::columns_of(const TextLines& lines, const XyzH
 
 void XyzFile::add_row(const TextLines& lines, std::vector<ColumnFiller>& columns, const Words& row) const {
     if (row.size() != columns.size())
-        lines.fault(fmt::format("this row has {} columns in place of {}; is the count of grains right?",
-                                row.size(), columns.size()));
+        lines.fault(fmt::format("this row has {} in place of {}; is the count of grains right?",
+                                counted(row.size(), "column"), columns.size()));
     for (std::size_t i = 0; i < row.size(); ++i) {
         if (!columns[i].add(row[i]))
             lines.fault(fmt::format("column {} ({}) has {}, which is {}", i + 1, columns[i].name(),
@@ -342,10 +343,11 @@ TextFrames::Passed XyzFile::pass_over(TextLines& lines, RawMoment& moment) {
         if (columns == 0) columns = words;
         if (words < columns && !lines.ended()) return Passed::cut;
         if (words != columns || words < 2)
-            lines.fault(fmt::format(
-                "row {} of {} has {} columns in place of {}; line {} says {} grains: is that "
-                "right?",
-                i + 1, *count, words > columns ? "more" : std::to_string(words), columns, first, *count));
+            lines.fault(
+                fmt::format("row {} of {} has {} in place of {}; line {} says {}: is that "
+                            "right?",
+                            i + 1, *count, words > columns ? "more columns" : counted(words, "column"),
+                            columns, first, counted(*count, "grain")));
     }
     moment.grains = *count;
     moment.time = header.time;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
@@ -111,9 +112,9 @@ class GrainTable final : public FrameArchive {
         const auto grains = static_cast<std::int64_t>(frame_.size());
         if (traffic || file_.filename() != kFinalTable || grains == scene_->grains()) return;
         throw UserError(
-            fmt::format("{}: has {} grains, but the scene.toml beside it has {}; it was cut off, or they "
+            fmt::format("{}: has {}, but the scene.toml beside it has {}; it was cut off, or they "
                         "are of two runs",
-                        file_.string(), grains, scene_->grains()));
+                        file_.string(), counted(grains, "grain"), scene_->grains()));
     }
 
     fs::path file_;

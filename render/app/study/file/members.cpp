@@ -163,6 +163,19 @@ std::string member_text(const Study& study, const Member& member) {
     return text;
 }
 
+void EmptyColumns::add_setting(const Scene& scene) {
+    for (std::size_t k = 0; k < why_.size(); ++k)
+        if (!any_ || !why_[k].empty()) why_[k] = why_column_is_empty(scene, study_.measures[k].column);
+    any_ = true;
+}
+
+void EmptyColumns::check() const {
+    for (std::size_t k = 0; k < why_.size(); ++k)
+        if (!why_[k].empty())
+            throw UserError(fmt::format("{}: '{}' has no value here: {}; measure another column",
+                                        study_.measures[k].place, study_.measures[k].column, why_[k]));
+}
+
 void PackingSharing::add_setting(const Scene& scene, const Plan& plan) {
     if (settings_ == kMost) return;
     ++settings_;

@@ -78,4 +78,18 @@ class PackingSharing {
     bool grows_ = false;  // whether the radii of some setting grow
 };
 
+// Looks for measures whose column has no value in any setting of a study.
+class EmptyColumns {
+  public:
+    explicit EmptyColumns(const Study& study) : study_(study), why_(study.measures.size()) {}
+    void add_setting(const Scene& scene);
+    // Throws UserError at the first such measure.
+    void check() const;
+
+  private:
+    const Study& study_;
+    std::vector<std::string> why_;  // why each measure's column is empty; empty words where it is not
+    bool any_ = false;
+};
+
 }  // namespace grainreel

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
+#include "engine/base/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/chapters/words.hpp"
@@ -51,15 +52,12 @@ void read_threshold(Document& document, const std::string& table, const MeasureC
     reduction.threshold = *document.quantity(path, column.dimension);
 }
 
-// The label on paper: "kinetic energy, slope (J/s)".
-std::string printed_label(const MeasureColumn& column, const std::string& how, Reduction::Kind kind) {
+// The unit of what a column is reduced to; empty for a pure number.
+std::string unit_of(const MeasureColumn& column, Reduction::Kind kind) {
     const std::string of_column = text_of(column.dimension).unit;
-    const bool is_time = kind == Reduction::Kind::crossing || kind == Reduction::Kind::first_passage;
-    std::string unit = of_column == "1" ? "" : of_column;
-    if (is_time) unit = "s";
-    if (kind == Reduction::Kind::slope) unit = of_column + "/s";
-    const std::string name = fmt::format("{}, {}", column.label, how);
-    return unit.empty() ? name : fmt::format("{} ({})", name, unit);
+    if (kind == Reduction::Kind::crossing || kind == Reduction::Kind::first_passage) return "s";
+    if (kind == Reduction::Kind::slope) return of_column + "/s";
+    return of_column == "1" ? "" : of_column;
 }
 
 // scene: that of the variant that runs longest. All members have its species and so its columns.
@@ -77,8 +75,9 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
     for (const auto& [word, kind] : reduction_words)
         if (word == how) measure.reduction.kind = kind;
     measure.name = document.text(table + ".name").value_or(name + "_" + how);
-    const std::optional<std::string> label = document.text(table + ".label");
-    measure.label = label.value_or(fmt::format("{} ({})", column->label, how));
+    measure.label = document.text(table + ".label").value_or(fmt::format("{}, {}", column->label, how));
+    measure.unit = unit_of(*column, measure.reduction.kind);
+    measure.place = document.place(table + ".column");
     for (const StudyMeasure& other : study.measures)
         if (other.name == measure.name)
             document.fail(document.has(table + ".name") ? table + ".name" : table + ".column",
@@ -86,7 +85,6 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
                                       excerpt(measure.name)));
     read_window(document, scene, table, measure.reduction);
     read_threshold(document, table, *column, measure.reduction);
-    if (!label) measure.printed = printed_label(*column, how, measure.reduction.kind);
     study.measures.push_back(std::move(measure));
 }
 
@@ -211,15 +209,48 @@ FilmedScene longest_scene(const Study& study) {
 
 }  // namespace
 
+namespace {
+
+void check_is_there(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw UserError(
+            fmt::format("{}: there is no such file; give the path of a study (.toml)", file.string()));
+}
+
+// Refuses a scene, in which nothing is varied.
+void check_no_scene(const Document& document, const std::filesystem::path& file) {
+    if (document.has("scene") ||
+        !(document.has("species") || document.has("container") || document.has("drive")))
+        return;
+    throw UserError(fmt::format("{}: this is a scene, not a study; run it by: {} movie {}", file.string(),
+                                program_call(), shell_word(file.string())));
+}
+
+void read_scene_of(Document& document, Study& study) {
+    const std::string name = document.required_text("scene");
+    study.scene = beside_study(study, name);
+    std::error_code ignored;
+    if (!std::filesystem::exists(study.scene, ignored))
+        document.fail("scene",
+                      fmt::format("is \"{}\", but there is no such file; its path counts from the study's "
+                                  "folder",
+                                  excerpt(name)));
+    study.scene_text = load_scene_file(study.scene);
+}
+
+}  // namespace
+
 Study read_study(const std::filesystem::path& file) {
     Study study;
     study.file = file;
+    check_is_there(file);
     study.text = load_scene_file(file);
     Document document(study.text, file.string(), study_keys());
+    check_no_scene(document, file);
     document.check_keys();
     study.title = document.text("title").value_or(file.stem().string());
-    study.scene = beside_study(study, document.required_text("scene"));
-    study.scene_text = load_scene_file(study.scene);
+    read_scene_of(document, study);
     const std::vector<std::string> sets = document.name_list("set");
     for (std::size_t i = 0; i < sets.size(); ++i)
         study.sets.push_back({sets[i], document.place(fmt::format("set[{}]", i))});

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <set>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
@@ -107,7 +108,7 @@ class Runner {
     void tell_to_stop() {
         told_to_stop_ = true;
         jobs_.clear();
-        listener_.info(fmt::format("stopping: {} members end in good order", running_.size()));
+        listener_.info(fmt::format("stopping in good order: {}", counted(running_.size(), "member")));
         for (const Running& one : running_) one.child.send(SIGTERM);
     }
 
@@ -180,8 +181,8 @@ class Runner {
         Progress progress;
         progress.stage = Progress::Stage::studying;
         progress.done = cost_planned_ > 0 ? std::min(1.0, done / cost_planned_) : 1;
-        progress.what = fmt::format("{} of {} members, {} running", in(State::complete), results_.size(),
-                                    running_.size());
+        progress.what = fmt::format("{} of {}, {} running", in(State::complete),
+                                    counted(results_.size(), "member"), running_.size());
         if (const auto failed = in(State::failed); failed > 0)
             progress.what += fmt::format(", {} failed", failed);
         progress.elapsed = watch_.seconds();

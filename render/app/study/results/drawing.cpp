@@ -23,13 +23,12 @@ constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};  // gnuplot's number
 // Settings that depend on a drawing's size.
 struct Look {
     PaperLines lines;
-    double pen;    // width of curves
-    bool printed;  // for print, with units
+    double pen;  // width of curves
 };
-const Look screen{{80, 55, 60, 2}, 2, false};
+const Look screen{{80, 55, 60, 2}, 2};
 
 Look look_on(const Paper& paper) {
-    return {lines_on(paper), 1, true};
+    return {lines_on(paper), 1};
 }
 
 // Number of lines of the longest name in the key (the list of a chart's series). gnuplot lets names overlap
@@ -99,10 +98,9 @@ std::string axes_and_key(const Study& study, const StudyChart& chart, const std:
                          bool has_reference, const Look& look) {
     const Variation& axis = study.variations[chart.x];
     const StudyMeasure& measure = study.measures[chart.y];
-    const std::string& label = look.printed && !measure.printed.empty() ? measure.printed : measure.label;
-    std::string text =
-        fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
-                    gnuplot_lines(axis.title(), look.lines.across), gnuplot_lines(label, look.lines.upright));
+    std::string text = fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
+                                   gnuplot_lines(axis.title(), look.lines.across),
+                                   gnuplot_lines(measure.title(), look.lines.upright));
     if (!chart.title.empty())
         text += fmt::format("set title {} noenhanced\n", gnuplot_lines(chart.title, look.lines.across));
     text += fmt::format("set key noenhanced outside above left Left reverse maxcols {} spacing {:.1f}\n",
