@@ -83,8 +83,6 @@ std::string bench_table(const BenchResult& result, bool quick) {
     return text;
 }
 
-constexpr int signal_base = 128;
-
 void read_size(const std::string& size, Film& film) {
     int end = 0;
     const bool read = std::sscanf(size.c_str(), "%dx%d%n", &film.width, &film.height, &end) == 2;

@@ -16,8 +16,6 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;
-
 class ChartVerb final : public Verb {
   public:
     ChartVerb()

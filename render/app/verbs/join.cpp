@@ -9,8 +9,6 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;
-
 class Join final : public Verb {
   public:
     Join()

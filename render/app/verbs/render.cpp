@@ -26,8 +26,6 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;
-
 // Refuses values for the film's segments when frames of the trajectory are drawn, which have a pace of their
 // own.
 void check_no_segments(const Assignments& sets) {

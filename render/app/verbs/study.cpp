@@ -31,7 +31,6 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;
 constexpr double table_interval = 5;  // s between two versions of study.csv while members run
 constexpr std::size_t most_listed = 40;
 
