@@ -18,7 +18,7 @@ using Cells = std::vector<std::string_view>;
 
 constexpr std::size_t most_rows = 40;  // so many rows are tried
 
-struct Writing {
+struct Notation {
     char separator;
     bool decimal_comma;
 };
@@ -175,7 +175,7 @@ bool must_be_numbers(const std::string& name) {
 
 // Finds out for each column whether it holds words. A word among places, velocities or radii is a mistake in
 // its row. None where a row has another number of cells.
-std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Writing& writing,
+std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Notation& writing,
                                           const std::vector<std::string>& names, bool closed,
                                           bool last_may_be_cut) {
     const std::size_t columns = names.size();
@@ -203,7 +203,7 @@ bool names_places(const std::vector<std::string>& names) {
     return has("x") && has("y");
 }
 
-std::optional<TableLayout> layout_by(const Sample& sample, const Writing& writing, bool whole) {
+std::optional<TableLayout> layout_by(const Sample& sample, const Notation& writing, bool whole) {
     Cells first;
     const bool closed =
         writing.separator != ' ' && trimmed_blanks(sample.filled.front()).ends_with(writing.separator);
