@@ -8,7 +8,8 @@
 set(GRAINREEL_BATCH 8 CACHE STRING "Source files of the program that are compiled together")
 set(GRAINREEL_BATCH_BYTES 48000)
 
-# Finds the names in a source's unnamed namespaces: `functions`, and `others` (types and constants).
+# Finds the names in a source's unnamed namespaces: `functions`, and `others` (types and constants). The name of the
+# program is none: it is a word of texts.
 function(grainreel_helpers text functions others)
   set(called "")
   set(named "")
@@ -28,7 +29,7 @@ function(grainreel_helpers text functions others)
       elseif(line MATCHES "^\n[^({=]*[ *&>]([A-Za-z_0-9]+) ?([({=]|$)")
         set(name ${CMAKE_MATCH_1})
         set(next "${CMAKE_MATCH_2}")
-        if(name MATCHES "^(operator|double|float|int|bool|char|void|auto|const|else)$")
+        if(name MATCHES "^(operator|double|float|int|bool|char|void|auto|const|else|grainreel)$")
           continue()
         elseif(next STREQUAL "(")
           list(APPEND called ${name})

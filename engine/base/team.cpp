@@ -26,7 +26,7 @@ void relax() {
 #endif
 }
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 // Yields the processor to other programs for about as long as waking up would take. Returns false if `value`
 // is still `old` afterwards. If another program wants the processor, a yield lasts as long as its turn, which
@@ -35,11 +35,11 @@ bool yield_while(const std::atomic<int>& value, int old) {
     constexpr int kUntilNextTry = 100;  // number of waits, some hundredths of a second
     thread_local int waits_without = 0;
     if (waits_without > 0) return --waits_without, false;
-    auto now = Clock::now();
+    auto now = SteadyClock::now();
     for (const auto until = now + kYields; now < until;) {
         if (value.load(std::memory_order_acquire) != old) return true;
         sched_yield();
-        const auto before = std::exchange(now, Clock::now());
+        const auto before = std::exchange(now, SteadyClock::now());
         if (now - before > kLongTurn) waits_without = kUntilNextTry;
     }
     return value.load(std::memory_order_acquire) != old;

@@ -23,7 +23,7 @@ std::string hash_of(std::string_view bytes) {
     return fmt::format("{:016x}", XXH64(bytes.data(), bytes.size(), 0));
 }
 
-void place(TriangleMesh& mesh, const MeshPlacement& placement, const fs::path& file) {
+void put_in_place(TriangleMesh& mesh, const MeshPlacement& placement, const fs::path& file) {
     const Eigen::Matrix3d turn = placement.rotation.toRotationMatrix();
     const bool turned = !turn.isIdentity(0);
     for (Vec3& vertex : mesh.vertices) {
@@ -311,7 +311,7 @@ LoadedMesh load_mesh(const fs::path& file, const MeshPlacement& placement) {
     loaded.mesh = read_mesh(format, file, bytes);
     loaded.facts.read = static_cast<std::int64_t>(loaded.mesh.triangles.size());
     if (loaded.mesh.empty()) refuse_file(file, fmt::format("this {} has no triangles", loaded.facts.format));
-    place(loaded.mesh, placement, file);
+    put_in_place(loaded.mesh, placement, file);
     mend(loaded.mesh, loaded.facts);
     if (loaded.mesh.empty()) refuse_file(file, "all triangles of this mesh are without area");
     return loaded;

@@ -95,7 +95,7 @@ namespace {
 // so a region is inside or outside as a whole and few places are enough.
 constexpr std::size_t asked_of_closed = 2, asked_of_open = 32;
 
-std::size_t cells(int across) {
+std::size_t cells_of(int across) {
     return static_cast<std::size_t>(across) * static_cast<std::size_t>(across) *
            static_cast<std::size_t>(across);
 }
@@ -106,12 +106,12 @@ RoomGrid::RoomGrid(const Surface& surface, const Eigen::AlignedBox3d& box,
                    const std::function<bool(const Vec3&)>& holds)
     : box_(box), width_(box.sizes() / kAcross) {
     if (!(width_.minCoeff() > 0)) return;
-    free_.assign(cells(kAcross), 0);
+    free_.assign(cells_of(kAcross), 0);
     constexpr int step = kAcross / kCoarse;
     for (int z = 0; z < kAcross; z += step)
         for (int y = 0; y < kAcross; y += step)
             for (int x = 0; x < kAcross; x += step) mark_free(surface, {x, y, z}, step);
-    answers_.assign(cells(kAcross), Answer::unknown);
+    answers_.assign(cells_of(kAcross), Answer::unknown);
     for (std::size_t i = 0; i < free_.size(); ++i)
         if (free_[i])
             answer_region(static_cast<std::int32_t>(i), holds,

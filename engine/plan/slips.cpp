@@ -15,18 +15,18 @@ namespace grainreel {
 namespace {
 
 // What beds in a laboratory have, with a margin on either side.
-constexpr double lightest = 25, heaviest = 23000;  // kg/m3: beads of foam, osmium
-constexpr double finest = 10e-6, coarsest = 0.5;   // m, of a grain
-constexpr double largest_container = 20;           // m
-constexpr double highest_frequency = 1000;         // Hz
-constexpr double hardest = 100;                    // Gamma
-constexpr double strongest_gravity = 500;          // m/s2
+constexpr double lightest = 25, densest = 23000;  // kg/m3: beads of foam, osmium
+constexpr double finest = 10e-6, coarsest = 0.5;  // m, of a grain
+constexpr double largest_container = 20;          // m
+constexpr double highest_frequency = 1000;        // Hz
+constexpr double hardest = 100;                   // Gamma
+constexpr double strongest_gravity = 500;         // m/s2
 constexpr double roughest = 3, most_rolling_resistance = 1;
 
 void look_at_density(const Scene& scene, std::size_t index, Warnings& warnings) {
     const std::string table = fmt::format("species[{}]", index);
     const double density = scene.species[index].density;
-    if (density >= lightest && density <= heaviest) return;
+    if (density >= lightest && density <= densest) return;
     const std::string what = density < lightest ? "less than foam has" : "more than any solid has";
     if (scene.written.count(table + ".mass") > 0) {
         warnings.add(table + ".mass",
@@ -36,7 +36,7 @@ void look_at_density(const Scene& scene, std::size_t index, Warnings& warnings) 
         return;
     }
     const double likely = density < lightest ? density : density / 1000;  // g/cm3
-    const bool fits = 1000 * likely >= lightest && 1000 * likely <= heaviest;
+    const bool fits = 1000 * likely >= lightest && 1000 * likely <= densest;
     warnings.add(
         table + ".density",
         fmt::format("a density of {:.4g} kg/m3 is {}; a number without a unit is in kg/m3{}", density, what,

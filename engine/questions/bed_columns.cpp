@@ -14,8 +14,6 @@ namespace grainreel {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 // Distance (m) from the grain's surface to the nearest of the faces for which `is_meant` is true.
 template <class IsMeant>
 std::vector<double> gaps_to_faces(const Snapshot& s, const GrainList& grains, const IsMeant& is_meant) {
@@ -32,7 +30,7 @@ std::vector<double> gaps_to_faces(const Snapshot& s, const GrainList& grains, co
                     : distance_to(face, pose.place, s.frame.position[i]).distance;
             least = std::min(least, gap);
         }
-        gaps.push_back(std::isfinite(least) ? least - s.frame.radius[i] : none);
+        gaps.push_back(std::isfinite(least) ? least - s.frame.radius[i] : no_value);
     }
     return gaps;
 }
@@ -56,7 +54,7 @@ std::vector<double> wall_gap(const Snapshot& s, const GrainList& grains) {
     if (s.scene.meshes.empty()) return gaps;
     for (std::size_t k = 0; k < grains.size(); ++k) {
         const double gap = std::fmin(gaps[k], gap_to_meshes(s, grains[k]));
-        gaps[k] = std::isfinite(gap) ? gap : none;
+        gaps[k] = std::isfinite(gap) ? gap : no_value;
     }
     return gaps;
 }
@@ -78,7 +76,8 @@ LargeArray<Place> places_of_all(const Snapshot& s) {
 // Depth (m) below the surface, whose heights are those of the observer `bed_surface`.
 std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
     SurfaceFrame frame = surface_frame(s.scene);
-    if (!(frame.right > frame.left) || s.frame.size() == 0) return std::vector<double>(grains.size(), none);
+    if (!(frame.right > frame.left) || s.frame.size() == 0)
+        return std::vector<double>(grains.size(), no_value);
     const Vec3 offset = container_offset(s.scene, s.frame);
     LargeArray<Place> places = places_of_all(s);
     for (Place& one : places) one.position -= Vec3(offset.x(), offset.y(), 0);
@@ -88,7 +87,7 @@ std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
         const double bin = std::floor((s.frame.position[i].y() - offset.y() - surface.left) / surface.bin);
         const double last = static_cast<double>(surface.height.size()) - 1;
         if (surface.height.empty()) {
-            depths.push_back(none);
+            depths.push_back(no_value);
             continue;
         }
         const auto k = static_cast<std::size_t>(std::clamp(bin, 0.0, last));
@@ -154,8 +153,8 @@ std::vector<double> neighbours(const Snapshot& s, const GrainList& grains) {
 }
 
 std::vector<double> unlike_share(const Snapshot& s, const GrainList& grains) {
-    return from_around(s, grains,
-                       [](const Around& of, std::size_t) { return of.all > 0 ? of.unlike / of.all : none; });
+    return from_around(
+        s, grains, [](const Around& of, std::size_t) { return of.all > 0 ? of.unlike / of.all : no_value; });
 }
 
 std::vector<double> fluctuation(const Snapshot& s, const GrainList& grains) {

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <string>
 
@@ -17,8 +16,6 @@
 namespace grainreel {
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // For each of these grains the sum of value_of(touch) over its touches.
 template <class See>
@@ -41,7 +38,7 @@ std::vector<double> contact_force(const Snapshot& s, const GrainList& grains) {
 }
 
 // One side of a contact, at a moment that was brought back.
-struct Side {
+struct ContactSide {
     const ContactForce& contact;
     bool is_first;
     Vec3 force() const { return is_first ? contact.on_first() : contact.on_second(); }
@@ -57,7 +54,7 @@ std::vector<Sum> over_contacts(const Snapshot& s, const Sum& zero, const Add& ad
         for (const bool is_first : {true, false}) {
             const std::int32_t id = is_first ? one.first : one.second;
             if (id < 0) continue;
-            if (const auto grain = s.place_of(id)) add(sums[*grain], *grain, Side{one, is_first});
+            if (const auto grain = s.place_of(id)) add(sums[*grain], *grain, ContactSide{one, is_first});
         }
     return sums;
 }
@@ -71,7 +68,7 @@ std::vector<double> listed(const std::vector<Sum>& sums, const GrainList& grains
 
 std::vector<Vec3> forces(const Snapshot& s) {
     return over_contacts(s, Vec3(0, 0, 0),
-                         [](Vec3& sum, std::size_t, const Side& side) { sum += side.force(); });
+                         [](Vec3& sum, std::size_t, const ContactSide& side) { sum += side.force(); });
 }
 
 template <int axis>
@@ -84,32 +81,32 @@ std::vector<double> force(const Snapshot& s, const GrainList& grains) {
 }
 
 std::vector<double> torque(const Snapshot& s, const GrainList& grains) {
-    const auto sums = over_contacts(s, Vec3(0, 0, 0),
-                                    [](Vec3& sum, std::size_t, const Side& side) { sum += side.torque(); });
+    const auto sums = over_contacts(
+        s, Vec3(0, 0, 0), [](Vec3& sum, std::size_t, const ContactSide& side) { sum += side.torque(); });
     return listed(sums, grains, [](const Vec3& sum, std::size_t) { return sum.norm(); });
 }
 
 std::vector<double> acceleration(const Snapshot& s, const GrainList& grains) {
     return listed(std::vector<int>(s.frame.size()), grains, [&](int, std::size_t i) {
-        return s.forces->acceleration.empty() ? none : s.forces->acceleration[i].norm();
+        return s.forces->acceleration.empty() ? no_value : s.forces->acceleration[i].norm();
     });
 }
 
 std::vector<double> sliding(const Snapshot& s, const GrainList& grains) {
     const auto sums = over_contacts(
-        s, 0.0, [](double& sum, std::size_t, const Side& side) { sum += side.contact.slides(); });
+        s, 0.0, [](double& sum, std::size_t, const ContactSide& side) { sum += side.contact.slides(); });
     return listed(sums, grains, [](double sum, std::size_t) { return sum; });
 }
 
 std::vector<double> largest_overlap(const Snapshot& s, const GrainList& grains) {
-    const auto sums = over_contacts(s, 0.0, [](double& most, std::size_t, const Side& side) {
+    const auto sums = over_contacts(s, 0.0, [](double& most, std::size_t, const ContactSide& side) {
         most = std::max(most, side.contact.overlap / side.contact.smaller_radius);
     });
     return listed(sums, grains, [](double most, std::size_t) { return most; });
 }
 
 std::vector<double> elastic_energy(const Snapshot& s, const GrainList& grains) {
-    const auto sums = over_contacts(s, 0.0, [](double& sum, std::size_t, const Side& side) {
+    const auto sums = over_contacts(s, 0.0, [](double& sum, std::size_t, const ContactSide& side) {
         sum += (side.contact.second >= 0 ? 0.5 : 1) * side.contact.stored_energy;
     });
     return listed(sums, grains, [](double sum, std::size_t) { return sum; });
@@ -118,7 +115,7 @@ std::vector<double> elastic_energy(const Snapshot& s, const GrainList& grains) {
 // Mean pressure in the grain, a third of the trace of its stress: sum(r f) / V over its contacts at r from
 // its centre. Compression is positive.
 std::vector<double> pressure(const Snapshot& s, const GrainList& grains) {
-    const auto sums = over_contacts(s, 0.0, [&](double& sum, std::size_t i, const Side& side) {
+    const auto sums = over_contacts(s, 0.0, [&](double& sum, std::size_t i, const ContactSide& side) {
         const double reach = s.frame.radius[i] - 0.5 * side.contact.overlap;
         sum -= reach * side.outwards().dot(side.force());
     });

@@ -145,8 +145,6 @@ GrainList grains_where(const Snapshot& snapshot, std::string_view text) {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 double id(const Snapshot& s, std::size_t i) {
     return static_cast<double>(s.frame.id[i]);
 }
@@ -215,7 +213,7 @@ double potential_energy(const Snapshot& s, std::size_t i) {
 
 double start_height(const Snapshot& s, std::size_t i) {
     const auto start = s.start.row_of(s.frame.id[i]);
-    return start ? (s.start.position[*start] - floor_offset(s.scene, s.start)).z() : none;
+    return start ? (s.start.position[*start] - floor_offset(s.scene, s.start)).z() : no_value;
 }
 
 // How far the grain has risen in the container, which moves itself.
@@ -225,18 +223,18 @@ double rise(const Snapshot& s, std::size_t i) {
 
 double moved(const Snapshot& s, std::size_t i) {
     const auto start = s.start.row_of(s.frame.id[i]);
-    if (!start) return none;
+    if (!start) return no_value;
     return ((s.frame.position[i] - container_offset(s.scene, s.frame)) -
             (s.start.position[*start] - container_offset(s.scene, s.start)))
         .norm();
 }
 
 double period_displacement(const Snapshot& s, std::size_t i) {
-    return s.frame.displacement.empty() ? none : s.frame.displacement[i].norm();
+    return s.frame.displacement.empty() ? no_value : s.frame.displacement[i].norm();
 }
 
 double period_rise(const Snapshot& s, std::size_t i) {
-    return s.frame.displacement.empty() ? none : s.frame.displacement[i].z();
+    return s.frame.displacement.empty() ? no_value : s.frame.displacement[i].z();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What can be asked of a grain: the names that expressions, histograms and tables use.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,9 @@
 #include "engine/scene/text/units.hpp"
 
 namespace grainreel {
+
+// The value of a column for a grain of which it is not known.
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // Places, in the frame, of the grains that are asked for.
 using GrainList = std::vector<std::size_t>;

@@ -41,8 +41,8 @@ AnswerTable counts_table(const Snapshot& s, const std::vector<std::size_t>& foun
 }
 
 // Statistics of all columns; costly ones only where they are asked for.
-AnswerTable statistics_table(const Snapshot& s, const std::vector<std::size_t>& found,
-                             const std::vector<int>& asked) {
+AnswerTable series_table(const Snapshot& s, const std::vector<std::size_t>& found,
+                         const std::vector<int>& asked) {
     AnswerTable table{"statistics",
                       "Of these grains",
                       {{"column", Dimension::number, ""},
@@ -70,7 +70,7 @@ Answer where_answer(const Snapshot& s, const std::string& condition, std::size_t
     const Expression wanted(condition, GrainVocabulary(s));
     const std::vector<std::size_t> found = grains_where(s, wanted);
     Answer answer{{counts_table(s, found)}, {}};
-    if (!found.empty()) answer.tables.push_back(statistics_table(s, found, wanted.columns()));
+    if (!found.empty()) answer.tables.push_back(series_table(s, found, wanted.columns()));
     add_grain_list(
         answer, s, found, found.empty() ? 0 : most,
         {{{"height", Dimension::length, ""}, [&](std::size_t i) { return s.height(i); }},
@@ -170,7 +170,7 @@ void add_grain_list(Answer& answer, const Snapshot& s, const std::vector<std::si
 
 namespace {
 
-std::vector<AnswerCell> row_of(const Snapshot& s, const SeriesRequest& request) {
+std::vector<AnswerCell> moment_row(const Snapshot& s, const SeriesRequest& request) {
     const std::vector<std::size_t> found = grains_where(s, Expression(request.condition, GrainVocabulary(s)));
     std::vector<std::int64_t> own(s.scene.species.size(), 0);
     for (const std::size_t i : found) ++own[static_cast<std::size_t>(s.frame.species[i])];
@@ -230,14 +230,15 @@ Answer series_of(MomentFinder& finder, const AskedRun& run, const SeriesRequest&
     Answer answer{{empty_table(run, request)}, {}};
     AnswerTable& table = answer.tables.front();
     if (request.every && request.replay) {
-        finder.at_every(*request.every, watcher,
-                        [&](const Snapshot& snapshot) { table.rows.push_back(row_of(snapshot, request)); });
+        finder.at_every(*request.every, watcher, [&](const Snapshot& snapshot) {
+            table.rows.push_back(moment_row(snapshot, request));
+        });
         return answer;
     }
     std::size_t damaged = 0;
     for (const std::size_t k : kept_ones(run, request.every)) {
         try {
-            table.rows.push_back(row_of(finder.kept(k), request));
+            table.rows.push_back(moment_row(finder.kept(k), request));
         } catch (const DamagedFrame&) {
             ++damaged;
         }

@@ -16,7 +16,7 @@ constexpr double kFarSideways = 10;  // times the box of the grains at the start
 constexpr int kLooksDown = 200;      // most places along a fall at which meshes are looked for
 
 // Where grains can be at most: a ball (m), and the same ball moved down by `fall`.
-struct Reach {
+struct GrainReach {
     Vec3 centre{0, 0, 0};
     double radius = 0;
     Vec3 down{0, 0, 0};  // unit
@@ -54,9 +54,9 @@ double fastest_given(const Scene& scene) {
     return fastest;
 }
 
-Reach reach_of(const Scene& scene) {
+GrainReach reach_of(const Scene& scene) {
     const Extent box = box_of_grains(scene);
-    Reach reach;
+    GrainReach reach;
     reach.centre = box.middle();
     reach.radius = 0.5 * box.size().norm() + largest_diameter(scene);
     if (scene.drive.present) reach.radius += 2 * scene.drive.largest_amplitude();
@@ -72,7 +72,7 @@ Reach reach_of(const Scene& scene) {
 
 // Whether a reach is near a surface. The reach is moved into the body's frame, where the surface is at
 // rest. `more` (m) widens it for the motion between two moments.
-bool is_near(const Surface& surface, const BodyPose& pose, const Reach& reach, double more) {
+bool is_near(const Surface& surface, const BodyPose& pose, const GrainReach& reach, double more) {
     const double radius = reach.radius + more;
     const int looks = static_cast<int>(std::min<double>(kLooksDown, std::ceil(reach.fall / radius)));
     for (int k = 0; k <= looks; ++k)
@@ -81,7 +81,7 @@ bool is_near(const Surface& surface, const BodyPose& pose, const Reach& reach, d
 }
 
 bool is_ever_near(const Scene& scene, const Plan& plan, const Body& body, const SceneMesh& mesh,
-                  const Reach& reach) {
+                  const GrainReach& reach) {
     const WallMotion motion(scene.drive, plan.clock);
     const std::vector<std::int64_t> moments = moments_of(body, scene, plan);
     const double steps = static_cast<double>(moments.back()) / kMomentsOfMotion;
@@ -107,7 +107,7 @@ std::optional<Vec3> touching_place(const Feed& feed, const SceneMesh& mesh, doub
 
 void check_meshes_near(const Scene& scene, const Plan& plan) {
     if (scene.start.method == Start::Method::file && scene.container.shape == Container::Shape::none) return;
-    const Reach reach = reach_of(scene);
+    const GrainReach reach = reach_of(scene);
     const std::vector<Body> bodies = bodies_of(scene);
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const SceneMesh& mesh = scene.meshes[m];

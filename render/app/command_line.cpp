@@ -36,11 +36,11 @@ void check_verb(const Verbs& verbs, const std::string& word) {
     for (const auto& verb : verbs) names.push_back(verb->name());
     if (word[0] == '-' || std::find(names.begin(), names.end(), word) != names.end()) return;
     const std::optional<std::string> meant = nearest_name(word, names);
-    throw UserError(fmt::format(
-        "{}; {}there are {}; see {} --help",
-        word.empty() ? "no command" : fmt::format("unknown command '{}'", excerpt(word)),
-        meant && !word.empty() ? fmt::format("did you mean '{}'? ", *meant) : "", fmt::join(names, ", "),
-        program_call()));
+    throw UserError(
+        fmt::format("{}; {}there are {}; see {} --help",
+                    word.empty() ? "no command" : fmt::format("unknown command '{}'", excerpt(word)),
+                    meant && !word.empty() ? fmt::format("did you mean '{}'? ", *meant) : "",
+                    fmt::join(names, ", "), program_call()));
 }
 
 // The option's name in a word: "--duratoin" for "--duratoin=3". Empty when the word is not a long option.
@@ -188,8 +188,8 @@ std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
         for (const auto& verb : verbs)
             if (app.got_subcommand(verb->name()))
                 check_options(*verb, *app.get_subcommand(verb->name()), argc, argv);
-        throw UserError(fmt::format("{}; see {}", excerpt(mistake.what(), most_of_a_mistake),
-                                    help_about(app, verbs)));
+        throw UserError(
+            fmt::format("{}; see {}", excerpt(mistake.what(), most_of_a_mistake), help_about(app, verbs)));
     }
     const auto chosen = std::find_if(verbs.begin(), verbs.end(),
                                      [&](const auto& verb) { return app.got_subcommand(verb->name()); });

@@ -16,13 +16,13 @@ namespace grainreel {
 namespace {
 
 namespace fs = std::filesystem;
-using Lines = std::vector<std::pair<std::string, std::string>>;
+using NamedLines = std::vector<std::pair<std::string, std::string>>;
 
 constexpr std::size_t most_files = 60;            // files that the page lists
 constexpr std::size_t most_scene_text = 200'000;  // bytes of the scene's text that the page shows
 
 // The lines as a list. A line without a name continues the one before.
-std::string list_html(const Lines& lines) {
+std::string list_html(const NamedLines& lines) {
     std::string html = "<dl>\n";
     for (const auto& [name, text] : lines) {
         if (!name.empty()) html += fmt::format("<dt>{}</dt>", html_text(name));
@@ -79,7 +79,7 @@ std::string scene_html(const fs::path& folder, const std::string& n, bool beside
 }
 
 std::string files_html(const fs::path& folder, const std::string& page_name) {
-    Lines files;
+    NamedLines files;
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         const std::string name = entry->path().filename().string();

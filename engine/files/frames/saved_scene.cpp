@@ -25,11 +25,10 @@ namespace {
         throw UserError(fmt::format("{}: no such folder; give the folder of a run", path.string()));
     const std::string other = other_than_file(path, true);
     const bool scene = other.empty() && path.extension() == ".toml";
-    throw UserError(fmt::format("{}: is {}; give the folder of a run{}", path.string(),
-                                other.empty() ? "a file" : other,
-                                scene ? fmt::format(", or run the scene: {} movie {}", program_call(),
-                                                    shell_word(path.string()))
-                                      : ""));
+    throw UserError(fmt::format(
+        "{}: is {}; give the folder of a run{}", path.string(), other.empty() ? "a file" : other,
+        scene ? fmt::format(", or run the scene: {} movie {}", program_call(), shell_word(path.string()))
+              : ""));
 }
 
 }  // namespace

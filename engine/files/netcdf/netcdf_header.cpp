@@ -18,19 +18,19 @@ namespace grainreel {
 
 namespace {
 
-using Bytes = std::uint64_t;
+using Count = std::uint64_t;
 
-constexpr Bytes dimension_tag = 10, variable_tag = 11, attribute_tag = 12;
-constexpr Bytes most_bytes = std::numeric_limits<std::int64_t>::max();
+constexpr Count dimension_tag = 10, variable_tag = 11, attribute_tag = 12;
+constexpr Count most_bytes = std::numeric_limits<std::int64_t>::max();
 
-Bytes padded(Bytes bytes) {
+Count padded(Count bytes) {
     return (bytes + 3) / 4 * 4;
 }
 
 // Number of bytes of a value by the number of its type, or 0 for an unknown type.
-Bytes size_of_type(Bytes type, int version) {
-    constexpr std::array<Bytes, 12> sizes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
-    const Bytes types = version == 5 ? sizes.size() : NC_DOUBLE + 1;
+Count size_of_type(Count type, int version) {
+    constexpr std::array<Count, 12> sizes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
+    const Count types = version == 5 ? sizes.size() : NC_DOUBLE + 1;
     return type < types ? sizes[type] : 0;
 }
 
@@ -57,8 +57,8 @@ class Parser {
 
   private:
     struct Variable {
-        Bytes bytes = 0;  // size of a record, or of the whole variable
-        Bytes begin = 0;
+        Count bytes = 0;  // size of a record, or of the whole variable
+        Count begin = 0;
         bool records = false;
     };
 
@@ -80,42 +80,42 @@ class Parser {
         offset_width_ = version_ == 1 ? 4 : 8;
     }
 
-    Bytes left() const { return size_ - std::min(at_, size_); }
+    Count left() const { return size_ - std::min(at_, size_); }
 
     // Reads a big-endian number.
-    Bytes number(Bytes width) {
+    Count number(Count width) {
         std::array<unsigned char, 8> digits{};
         if (left() < width || !in_.read(reinterpret_cast<char*>(digits.data()), std::streamsize(width)))
             damaged("it ends too early");
         at_ += width;
-        Bytes value = 0;
-        for (Bytes i = 0; i < width; ++i) value = value << 8 | digits[i];
+        Count value = 0;
+        for (Count i = 0; i < width; ++i) value = value << 8 | digits[i];
         return value;
     }
 
-    void skip(Bytes bytes) {
+    void skip(Count bytes) {
         if (bytes > left()) damaged("a length reaches beyond the end of the file");
         in_.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
         at_ += bytes;
     }
 
     void read_name() {
-        const Bytes length = number(count_width_);
+        const Count length = number(count_width_);
         if (length == 0 || length > NC_MAX_NAME) damaged("the length of a name");
         skip(padded(length));
     }
 
     // The number of entries in a list. Each takes at least `smallest` bytes.
-    Bytes read_list(Bytes tag, Bytes smallest) {
-        const Bytes found = number(4), entries = number(count_width_);
+    Count read_list(Count tag, Count smallest) {
+        const Count found = number(4), entries = number(count_width_);
         if (found != tag && (found != 0 || entries != 0)) damaged("a list begins with another mark");
         if (entries > left() / smallest) damaged("a list is longer than the file");
         return entries;
     }
 
     void read_dimensions() {
-        const Bytes entries = read_list(dimension_tag, 4 + 2 * count_width_);
-        for (Bytes i = 0; i < entries; ++i) {
+        const Count entries = read_list(dimension_tag, 4 + 2 * count_width_);
+        for (Count i = 0; i < entries; ++i) {
             read_name();
             dimensions_.push_back(number(count_width_));
             if (dimensions_.back() != 0) continue;
@@ -125,26 +125,26 @@ class Parser {
     }
 
     void read_attributes() {
-        const Bytes entries = read_list(attribute_tag, 8 + 2 * count_width_);
-        for (Bytes i = 0; i < entries; ++i) {
+        const Count entries = read_list(attribute_tag, 8 + 2 * count_width_);
+        for (Count i = 0; i < entries; ++i) {
             read_name();
-            const Bytes size = size_of_type(number(4), version_);
+            const Count size = size_of_type(number(4), version_);
             if (size == 0) damaged("the type of an attribute");
-            const Bytes values = number(count_width_);
+            const Count values = number(count_width_);
             if (values > left() / size) damaged("an attribute is longer than the file");
             skip(padded(values * size));
         }
     }
 
     void read_variables() {
-        const Bytes entries = read_list(variable_tag, 16 + 3 * count_width_);
-        for (Bytes i = 0; i < entries; ++i) {
+        const Count entries = read_list(variable_tag, 16 + 3 * count_width_);
+        for (Count i = 0; i < entries; ++i) {
             read_name();
             Variable variable;
-            Bytes values = 1;
+            Count values = 1;
             read_shape(variable, values);
             read_attributes();
-            const Bytes size = size_of_type(number(4), version_);
+            const Count size = size_of_type(number(4), version_);
             if (size == 0) damaged("the type of a variable");
             if (values > most_bytes / size) damaged("the size of a variable");
             variable.bytes = values * size;
@@ -154,11 +154,11 @@ class Parser {
         }
     }
 
-    void read_shape(Variable& variable, Bytes& values) {
-        const Bytes rank = number(count_width_);
+    void read_shape(Variable& variable, Count& values) {
+        const Count rank = number(count_width_);
         if (rank > NC_MAX_VAR_DIMS) damaged("the number of a variable's dimensions");
-        for (Bytes d = 0; d < rank; ++d) {
-            const Bytes id = number(count_width_);
+        for (Count d = 0; d < rank; ++d) {
+            const Count id = number(count_width_);
             if (id >= dimensions_.size()) damaged("a variable's dimension is none of the file's");
             if (id == unlimited_) {
                 if (d > 0) damaged("the dimension of records is not a variable's first");
@@ -173,7 +173,7 @@ class Parser {
     NetcdfHeader header() const {
         NetcdfHeader header{size_, 0};
         int with_records = 0;
-        Bytes unpadded = 0;
+        Count unpadded = 0;
         for (const Variable& variable : variables_) {
             if (variable.begin < at_ || variable.begin > most_bytes) damaged("where a variable begins");
             if (variable.records) {
@@ -192,12 +192,12 @@ class Parser {
 
     const std::filesystem::path& path_;
     std::ifstream in_;
-    Bytes size_ = 0, at_ = 0;
+    Count size_ = 0, at_ = 0;
     int version_ = 0;
-    Bytes count_width_ = 4, offset_width_ = 4;
-    std::vector<Bytes> dimensions_;
+    Count count_width_ = 4, offset_width_ = 4;
+    std::vector<Count> dimensions_;
     // The number of the unlimited dimension. The largest value stands for none.
-    Bytes unlimited_ = std::numeric_limits<Bytes>::max();
+    Count unlimited_ = std::numeric_limits<Count>::max();
     std::vector<Variable> variables_;
 };
 

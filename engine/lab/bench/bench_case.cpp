@@ -51,12 +51,12 @@ BenchBed copied(const BenchBed& bed, const Grains& grains, double side, int k) {
 
 namespace {
 
-constexpr int all = 10125, big_ones = 1125;
+constexpr int kAllGrains = 10125, kBigGrains = 1125;
 
 // The peers' bed with so many grains. Fewer grains stand in a narrower box, as high as the whole bed.
 BenchBed bed_of(int particles, const Plan& plan) {
-    const int count = std::min(particles, all), big = count * big_ones / all;
-    const double side = 0.02 * std::sqrt(count / static_cast<double>(all));
+    const int count = std::min(particles, kAllGrains), big = count * kBigGrains / kAllGrains;
+    const double side = 0.02 * std::sqrt(count / static_cast<double>(kAllGrains));
     const PeersBed bed = peers_bed(7, count - big, big, side);
     return {plan, peers_surroundings(bed, plan), peers_grains(bed)};
 }
@@ -85,8 +85,9 @@ double side(const BenchBed& bed) {
 }
 
 BenchCase like_the_peers(const std::string& name, const std::string& about, BenchBed (*bed)(int)) {
-    return {name, about, all, -60000, 0, 0, {{"settled", 60000}, {"rising", 10000}, {"vibrated", 20000}},
-            bed,  side};
+    return {
+        name, about, kAllGrains, -60000, 0, 0, {{"settled", 60000}, {"rising", 10000}, {"vibrated", 20000}},
+        bed,  side};
 }
 
 }  // namespace
@@ -241,10 +242,10 @@ duration = 1
 
 // Small grains of 1 mm on a loose lattice, in a box that is 40 of them wide. One big grain low in the middle
 // takes the place of those that it would touch.
-constexpr double small = 0.001, apart = 1.1 * small, wide = 0.044;  // m
+constexpr double kSmall = 0.001, kApart = 1.1 * kSmall, kWide = 0.044;  // m
 
 BenchBed sea(int particles, double big) {
-    BenchBed bed = box("sea.toml", {wide, wide, 0.5},
+    BenchBed bed = box("sea.toml", {kWide, kWide, 0.5},
                        fmt::format(R"(
 [[species]]
 name = "small"
@@ -259,27 +260,27 @@ density = 2500
 [contact]
 restitution = 0.9
 friction = 0.5)",
-                                   particles, small, big),
+                                   particles, kSmall, big),
                        "[drive]\nfrequency = 25\ng_level = 3\n");
-    const int across = static_cast<int>(wide / apart);
-    const Vec3 centre(0, 0, big / 2 + 5 * apart);
+    const int across = static_cast<int>(kWide / kApart);
+    const Vec3 centre(0, 0, big / 2 + 5 * kApart);
     Random random(1, Stream::centres);
     bed.grains.reserve(particles);
     bed.grains.add(0, 1, centre, big / 2, 2500);
     for (int site = 0; static_cast<int>(bed.grains.size()) < particles; ++site) {
-        const Vec3 corner(-wide / 2, -wide / 2, 0);
+        const Vec3 corner(-kWide / 2, -kWide / 2, 0);
         const auto shift = [&] { return 0.5 + random.between(-0.03, 0.03); };
-        const Vec3 at = corner + apart * Vec3(site % across + shift(), site / across % across + shift(),
-                                              site / (across * across) + shift());
-        if ((at - centre).norm() < (big + small) / 2 * 1.01) continue;
-        bed.grains.add(static_cast<std::int32_t>(bed.grains.size()), 0, at, small / 2, 2500);
+        const Vec3 at = corner + kApart * Vec3(site % across + shift(), site / across % across + shift(),
+                                               site / (across * across) + shift());
+        if ((at - centre).norm() < (big + kSmall) / 2 * 1.01) continue;
+        bed.grains.add(static_cast<std::int32_t>(bed.grains.size()), 0, at, kSmall / 2, 2500);
     }
     return bed;
 }
 
 // A twentieth of the space is solid. Elastic walls and nearly elastic grains keep it a gas.
 BenchBed gas(int particles) {
-    const double edge = small * std::cbrt(particles * std::numbers::pi / 6 / 0.05);
+    const double edge = kSmall * std::cbrt(particles * std::numbers::pi / 6 / 0.05);
     BenchBed bed = box("gas.toml", {edge, edge, edge},
                        fmt::format(R"(
 gravity = 0
@@ -292,7 +293,7 @@ density = 2500
 restitution = 0.99
 friction = 0.1
 stiffness = 1000)",
-                                   particles, small),
+                                   particles, kSmall),
                        "");
     const int across = static_cast<int>(std::ceil(std::cbrt(particles)));
     Random random(1, Stream::centres);
@@ -303,7 +304,7 @@ stiffness = 1000)",
         const Vec3 at = corner + edge / across *
                                      Vec3(site % across + 0.5, site / across % across + 0.5,
                                           site / (across * across) + 0.5);
-        bed.grains.add(site, 0, at, small / 2, 2500);
+        bed.grains.add(site, 0, at, kSmall / 2, 2500);
         bed.grains.motion.back().velocity = Vec3(speed(), speed(), speed());
     }
     return bed;
@@ -328,7 +329,7 @@ std::vector<BenchCase> scene_cases() {
              20000,
              20,
              {{"settled", 3000}, {"vibrated", 10000}},
-             [](int n) { return sea(n, 20 * small); }},
+             [](int n) { return sea(n, 20 * kSmall); }},
             {"sea",
              "the same with one that is no larger: what the large one costs",
              sea_of,
@@ -336,7 +337,7 @@ std::vector<BenchCase> scene_cases() {
              20000,
              20,
              {{"settled", 3000}, {"vibrated", 10000}},
-             [](int n) { return sea(n, small); }},
+             [](int n) { return sea(n, kSmall); }},
             {"gas", "a twentieth of the space solid, no gravity", 10000, 0, 2000, 0, {{"gas", 20000}}, gas}};
 }
 

@@ -214,24 +214,24 @@ BenchOutcome run_bench(const BenchCase& bench, const BenchRequest& request, cons
 
 namespace {
 
-constexpr int side = 12, steps = 40, stretches = 30;
-constexpr double step = 1e-9;  // s; nothing moves far, so that every stretch finds the same contacts
+constexpr int kSide = 12, kSteps = 40, kStretches = 30;
+constexpr double kStep = 1e-9;  // s; nothing moves far, so that every stretch finds the same contacts
 
 Plan lattice_plan() {
     Plan plan;
     PairPlan pair = latching_pair(bench_stiffness, 0.9, 0.5);
     pair.model.normal = NormalForce::walton_braun_corrected;
     plan.grain = plan.wall = {pair};
-    plan.clock.step = step;
+    plan.clock.step = kStep;
     return plan;
 }
 
 Grains lattice_grains() {
     Grains grains;
     const double apart = 2 * bench_radius * (1 - 1e-4);
-    for (int x = 0; x < side; ++x)
-        for (int y = 0; y < side; ++y)
-            for (int z = 0; z < side; ++z) {
+    for (int x = 0; x < kSide; ++x)
+        for (int y = 0; y < kSide; ++y)
+            for (int z = 0; z < kSide; ++z) {
                 grains.add(static_cast<std::int32_t>(grains.size()), 0, apart * Vec3(x, y, z), bench_radius,
                            bench_density);
                 grains.motion.back().velocity = 0.01 * Vec3(y % 2, z % 2, x % 2);
@@ -257,11 +257,11 @@ double lattice_speed(int threads) {
     StepLoop loop(plan, around, grains, team);
     loop.restart();
     double best = 0;
-    for (int stretch = 0; stretch < stretches; ++stretch) {
+    for (int stretch = 0; stretch < kStretches; ++stretch) {
         const double begin = processor_seconds();
-        loop.run(stretch * steps, steps, step, 0);
+        loop.run(stretch * kSteps, kSteps, kStep, 0);
         const double taken = (processor_seconds() - begin) / threads;
-        best = std::max(best, steps * static_cast<double>(side * side * side) / taken);
+        best = std::max(best, kSteps * static_cast<double>(kSide * kSide * kSide) / taken);
     }
     return best;
 }

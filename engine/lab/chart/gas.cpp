@@ -44,12 +44,12 @@ void Gas::run_to(double seconds) {
 
 namespace {
 
-constexpr double stiffness = 1e4;  // N/m
-constexpr int side = 6;
+constexpr double kStiffness = 1e4;  // N/m
+constexpr int kSide = 6;
 
 GasInCube cube_of(std::uint64_t seed) {
     GasInCube cube;
-    cube.side = side;
+    cube.side = kSide;
     cube.solid_fraction = 0.1;
     cube.seed = seed;
     return cube;
@@ -58,16 +58,16 @@ GasInCube cube_of(std::uint64_t seed) {
 // E* of Hertz' contact that has the same energy as the linear spring at the overlap of 1 % that the plan
 // allows. k a^(3/2) stores 2/5 k a^(5/2), with k = 4/3 E* sqrt(R/2).
 double modulus() {
-    const double overlap = 0.01 * 2 * bench_radius, k = 1.25 * stiffness / std::sqrt(overlap);
+    const double overlap = 0.01 * 2 * bench_radius, k = 1.25 * kStiffness / std::sqrt(overlap);
     return 0.75 * k / std::sqrt(bench_radius / 2);
 }
 
 std::string scene_text(const std::string& law, double restitution) {
     const double edge = cube_of(1).edge();
     const std::string spring = law == "hertz" ? fmt::format("modulus = {:.17g}", modulus())
-                                              : fmt::format("stiffness = {:.17g}", stiffness);
+                                              : fmt::format("stiffness = {:.17g}", kStiffness);
     return "gravity = 0\n[[species]]\nname = \"grain\"\n" +
-           fmt::format("count = {}\ndiameter = {:.17g}\ndensity = {:.17g}\n", side * side * side,
+           fmt::format("count = {}\ndiameter = {:.17g}\ndensity = {:.17g}\n", kSide * kSide * kSide,
                        2 * bench_radius, bench_density) +
            fmt::format("[contact]\nlaw = \"{}\"\nrestitution = {:.17g}\nfriction = 0\n{}\n", law, restitution,
                        spring) +
@@ -128,7 +128,7 @@ Plan gas_plan(const GasSetting& setting, double restitution) {
 std::vector<GasEnergy> gas_energy(const Plan& plan, std::uint64_t seed, const std::vector<double>& times,
                                   const std::function<bool()>& goes_on) {
     constexpr std::int64_t at_once = 2000;  // steps between two questions to goes_on()
-    const double contact = std::numbers::pi * std::sqrt(bench_mass() / 2 / stiffness);
+    const double contact = std::numbers::pi * std::sqrt(bench_mass() / 2 / kStiffness);
     Watched gas(plan, seed);
     std::vector<GasEnergy> all;
     for (const double time : times) {
@@ -146,28 +146,28 @@ namespace {
 
 // Number of force evaluations in a contact, as in the table of single contacts. The settings `planned`,
 // spring-dashpot and Hertz take the step that the plan chooses.
-constexpr double forces = 12;
-const GasSetting plain{"velocity Verlet", "walton-braun", {}, GasSetting::Corrected::no, forces};
-const GasSetting corrected{"with corrections", "walton-braun", {}, GasSetting::Corrected::yes, forces};
-const GasSetting planned{"Walton-Braun as planned"};
+constexpr double kForces = 12;
+const GasSetting kPlain{"velocity Verlet", "walton-braun", {}, GasSetting::Corrected::no, kForces};
+const GasSetting kCorrected{"with corrections", "walton-braun", {}, GasSetting::Corrected::yes, kForces};
+const GasSetting kPlanned{"Walton-Braun as planned"};
 
 GasSetting with_integrator(const char* name, const char* key) {
-    GasSetting setting = plain;
+    GasSetting setting = kPlain;
     setting.name = name;
     setting.sets = {std::string("run.integrator=") + key};
     return setting;
 }
 
 std::vector<GasSetting> elastic_settings() {
-    return {plain,
-            corrected,
+    return {kPlain,
+            kCorrected,
             with_integrator("leapfrog", "leapfrog"),
             with_integrator("position Verlet", "position-verlet"),
             with_integrator("Forest-Ruth", "forest-ruth"),
             with_integrator("Gear", "gear"),
             {"spring-dashpot", "spring-dashpot"},
             {"Hertz", "hertz"},
-            planned};
+            kPlanned};
 }
 
 // A setting at one restitution, and the times at which its energy is measured, in contact times.
@@ -184,7 +184,7 @@ std::vector<GasRun> gas_runs(bool quick) {
     const std::vector<double> nearly =
         quick ? std::vector<double>{0.9, 0.999}
               : std::vector<double>{0.9, 0.95, 0.98, 0.99, 0.995, 0.997, 0.998, 0.999, 0.9995, 0.9999};
-    for (const GasSetting& setting : {plain, corrected, planned})
+    for (const GasSetting& setting : {kPlain, kCorrected, kPlanned})
         for (const double e : nearly) all.push_back({setting, e, {quick ? 250.0 : 1000.0}});
     return all;
 }

@@ -35,7 +35,7 @@ double rounded_up(double value) {
     return std::ceil(value / unit - 1e-9) * unit;
 }
 
-std::string row(const char* quantity, double low, double high) {
+std::string range_row(const char* quantity, double low, double high) {
     return low < high && std::isfinite(low) && std::isfinite(high)
                ? fmt::format("{},{:.6g},{:.6g}\n", quantity, low, high)
                : "";
@@ -93,13 +93,13 @@ void ImportRanges::add_forces(const Frame& frame, const std::vector<Touch>& touc
 
 void ImportRanges::write(const fs::path& folder) const {
     std::string text = "quantity,low,high\n";
-    text += row("speed", 0, rounded_up(speed_.value()));
+    text += range_row("speed", 0, rounded_up(speed_.value()));
     const double rise = rounded_up(rise_.value());
-    text += row("vertical-velocity", -rise, rise);
-    if (heights_) text += row("start-height", (*heights_)[0], (*heights_)[1]);
-    text += row("spin", 0, rounded_up(spin_.value()));
-    text += row("kinetic-energy", 0, rounded_up(energy_.value()));
-    text += row("contact-force", 0, rounded_up(force_.value()));
+    text += range_row("vertical-velocity", -rise, rise);
+    if (heights_) text += range_row("start-height", (*heights_)[0], (*heights_)[1]);
+    text += range_row("spin", 0, rounded_up(spin_.value()));
+    text += range_row("kinetic-energy", 0, rounded_up(energy_.value()));
+    text += range_row("contact-force", 0, rounded_up(force_.value()));
     std::ofstream out(folder / ranges_name, std::ios::binary);
     out << text;
     out.close();

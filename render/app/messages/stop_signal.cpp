@@ -24,7 +24,7 @@ extern "C" void on_stop(int signal) {
     if (second && something_to_keep) return;
     [[maybe_unused]] const ssize_t ignored =
         ::write(STDERR_FILENO, words_at_once.data(), words_at_once.size());
-    ::_exit(128 + signal);
+    ::_exit(signal_base + signal);
 }
 
 // Whether the signal was already ignored when the program started, as under nohup. It then stays ignored.

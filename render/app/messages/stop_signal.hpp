@@ -8,6 +8,9 @@
 
 namespace grainreel {
 
+// The exit status of a verb that a signal stopped is this and the signal's number, as shells have it.
+inline constexpr int signal_base = 128;
+
 // Ignores SIGPIPE and SIGXFSZ from then on, so that a closed pipe or a full quota appears as a failed write.
 void ignore_write_signals();
 

@@ -49,15 +49,13 @@ void refuse_other_files(const fs::path& path) {
     if (!fs::exists(path, ignored) || fs::is_directory(path, ignored) || path.extension() == ".toml") return;
     const FrameReader* const reader = reader_of(path);
     if (reader != nullptr)
-        throw UserError(
-            fmt::format("{}: is {}; give the folder of its run", path.string(), reader->about));
+        throw UserError(fmt::format("{}: is {}; give the folder of its run", path.string(), reader->about));
     for (const FrameReader& known : frame_readers())
         if (std::string_view(known.name) == "foreign")
-            throw UserError(fmt::format("{}: is {}; give the folder of a run, or {}", path.string(),
-                                        fs::file_size(path, ignored) == 0
-                                            ? "an empty file"
-                                            : "a file of no format that is read here",
-                                        known.about));
+            throw UserError(fmt::format(
+                "{}: is {}; give the folder of a run, or {}", path.string(),
+                fs::file_size(path, ignored) == 0 ? "an empty file" : "a file of no format that is read here",
+                known.about));
 }
 
 }  // namespace

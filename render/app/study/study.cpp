@@ -27,14 +27,15 @@ double time_between(double threshold, const std::vector<double>& times, const st
     return times[i - 1] + share * (times[i] - times[i - 1]);
 }
 
-struct Rows {
+struct TimedRows {
     std::vector<double> times, values;
 };
 
 // The rows within the window. A row at an end of the window counts although its time is rounded.
-Rows rows_within(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values) {
+TimedRows rows_within(const Reduction& how, const std::vector<double>& times,
+                      const std::vector<double>& values) {
     constexpr double rounding = 1e-9;  // relative rounding of a time
-    Rows rows;
+    TimedRows rows;
     for (std::size_t i = 0; i < times.size(); ++i) {
         const double slack = rounding * std::abs(times[i]);
         if (times[i] + slack < how.from || times[i] - slack > how.to) continue;
@@ -44,8 +45,8 @@ Rows rows_within(const Reduction& how, const std::vector<double>& times, const s
     return rows;
 }
 
-Rows finite_rows(const Rows& all) {
-    Rows rows;
+TimedRows finite_rows(const TimedRows& all) {
+    TimedRows rows;
     for (std::size_t i = 0; i < all.times.size(); ++i) {
         if (!std::isfinite(all.values[i])) continue;
         rows.times.push_back(all.times[i]);
@@ -135,8 +136,8 @@ double last_crossing(double threshold, const std::vector<double>& times, const s
 }
 
 double reduce(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values) {
-    const Rows all = rows_within(how, times, values);
-    const Rows rows = finite_rows(all);
+    const TimedRows all = rows_within(how, times, values);
+    const TimedRows rows = finite_rows(all);
     switch (how.kind) {
         case Reduction::Kind::mean:
             return mean_of_values(rows.values);

@@ -84,8 +84,6 @@ std::string bench_table(const BenchResult& result, bool quick) {
     return text;
 }
 
-constexpr int signal_base = 128;  // 128 + N is the exit status after signal N
-
 void read_size(const std::string& size, Film& film) {
     int end = 0;
     const bool read = std::sscanf(size.c_str(), "%dx%d%n", &film.width, &film.height, &end) == 2;

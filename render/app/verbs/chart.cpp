@@ -16,8 +16,6 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;  // 128 + N is the exit status after signal N
-
 class ChartVerb final : public Verb {
   public:
     ChartVerb()

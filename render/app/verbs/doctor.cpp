@@ -33,7 +33,7 @@ namespace grainreel {
 
 namespace {
 
-struct Finding {
+struct Diagnosis {
     std::string what;      // "OpenGL by OSMesa"
     std::string state;     // what was found, or why it was not
     bool good = true;      // it is present and good enough
@@ -51,8 +51,8 @@ std::string speed_text(int threads) {
     return fmt::format("{:.0f} M grain-steps/s", 1e-6 * lattice_speed(threads));
 }
 
-Finding opengl(const char* what, gl::Provider provider, const std::string& remedy) {
-    Finding finding{what, "", true, false, remedy};
+Diagnosis opengl(const char* what, gl::Provider provider, const std::string& remedy) {
+    Diagnosis finding{what, "", true, false, remedy};
     try {
         finding.state = gl::make_context(provider, 1)->description();
     } catch (const std::exception& problem) {
@@ -62,10 +62,10 @@ Finding opengl(const char* what, gl::Provider provider, const std::string& remed
     return finding;
 }
 
-Finding film_format(const std::string& name, FilmFormat format) {
+Diagnosis film_format(const std::string& name, FilmFormat format) {
     const Codec& codec = codec_of(format);
-    Finding finding{fmt::format("film as {}", name), codec.words, true, false,
-                    "install an FFmpeg that has an encoder for " + std::string(codec.standard)};
+    Diagnosis finding{fmt::format("film as {}", name), codec.words, true, false,
+                      "install an FFmpeg that has an encoder for " + std::string(codec.standard)};
     CodecSettings settings;
     settings.width = settings.height = 64;
     try {
@@ -121,7 +121,7 @@ fs::path existing(fs::path folder) {
     return folder;
 }
 
-std::vector<Finding> find_processors() {
+std::vector<Diagnosis> find_processors() {
     const int usable = usable_processors();
     const unsigned all = std::max(1u, std::thread::hardware_concurrency());
     std::string speed = speed_text(1) + " on one thread";
@@ -131,18 +131,18 @@ std::vector<Finding> find_processors() {
             {"engine's speed", speed + " (a lattice of 1,728 grains)"}};
 }
 
-std::vector<Finding> find_drawing() {
-    std::vector<Finding> found = {
+std::vector<Diagnosis> find_drawing() {
+    std::vector<Diagnosis> found = {
         opengl("OpenGL by OSMesa", gl::Provider::osmesa, "on Debian: apt-get install libosmesa6"),
         opengl("OpenGL by EGL", gl::Provider::egl, "on Debian: apt-get install libegl1 libgl1-mesa-dri")};
     // One of the two is enough, so each is needed only when the other is missing too.
-    for (Finding& finding : found) finding.needed = !found[0].good && !found[1].good;
+    for (Diagnosis& finding : found) finding.needed = !found[0].good && !found[1].good;
     return found;
 }
 
 // FFmpeg and the formats that it makes. Without FFmpeg the formats are left out.
-std::vector<Finding> find_films() {
-    Finding ffmpeg{"FFmpeg", "", true, true, "without it there are no films, but PNG pictures"};
+std::vector<Diagnosis> find_films() {
+    Diagnosis ffmpeg{"FFmpeg", "", true, true, "without it there are no films, but PNG pictures"};
     try {
         ffmpeg.state = ffmpeg_text();
     } catch (const std::exception& problem) {
@@ -150,7 +150,7 @@ std::vector<Finding> find_films() {
         ffmpeg.good = false;
         return {ffmpeg};
     }
-    std::vector<Finding> found = {ffmpeg};
+    std::vector<Diagnosis> found = {ffmpeg};
     for (const auto& [word, format] : film_format_words) {
         if (format == FilmFormat::png) continue;  // the format png has no encoder
         found.push_back(film_format(std::string(word), format));
@@ -160,7 +160,7 @@ std::vector<Finding> find_films() {
 }
 
 // Findings about imports. A full cache is no fault: it makes room by itself.
-std::vector<Finding> find_imports() {
+std::vector<Diagnosis> find_imports() {
     constexpr double megabyte = 1e6;
     const ImportsKept kept = imports_kept();
     const std::string of = kept.folder.string();
@@ -172,7 +172,7 @@ std::vector<Finding> find_imports() {
                  static_cast<double>(kept.most_bytes) / megabyte, shell_word(of))}};
 }
 
-std::vector<Finding> find_packings() {
+std::vector<Diagnosis> find_packings() {
     constexpr double megabyte = 1e6;
     const PackingsKept kept = packings_kept();
     const std::string of = kept.folder.string();
@@ -185,8 +185,8 @@ std::vector<Finding> find_packings() {
                          static_cast<double>(kept.most_bytes) / megabyte, shell_word(of))}};
 }
 
-std::vector<Finding> find_programs() {
-    Finding gnuplot{"gnuplot", "", true, false, "for charts; on Debian: apt-get install gnuplot-nox"};
+std::vector<Diagnosis> find_programs() {
+    Diagnosis gnuplot{"gnuplot", "", true, false, "for charts; on Debian: apt-get install gnuplot-nox"};
     const std::optional<fs::path> file = on_the_path("gnuplot");
     gnuplot.good = file.has_value();
     gnuplot.state = file ? file->string() : "is not on the PATH";
@@ -195,7 +195,7 @@ std::vector<Finding> find_programs() {
 
 // Findings about fonts: for the letters that words on films always need (Latin and Greek), and for those of
 // other scripts.
-std::vector<Finding> find_letters() {
+std::vector<Diagnosis> find_letters() {
     std::vector<std::string> here, absent, packages;
     bool usual = true;
     for (const ScriptSample& sample : script_samples()) {
@@ -208,7 +208,7 @@ std::vector<Finding> find_letters() {
         if (std::find(packages.begin(), packages.end(), package) == packages.end())
             packages.push_back(std::move(package));
     }
-    std::vector<Finding> found;
+    std::vector<Diagnosis> found;
     found.push_back({"letters", here.empty() ? "no font at all" : fmt::format("{}", fmt::join(here, ", ")),
                      usual, true, "on Debian: apt-get install fonts-dejavu-core"});
     if (!absent.empty())
@@ -220,7 +220,7 @@ std::vector<Finding> find_letters() {
     return found;
 }
 
-std::vector<Finding> find_room(const fs::path& out) {
+std::vector<Diagnosis> find_room(const fs::path& out) {
     const double memory = available_memory();
     const fs::path folder = existing(out);
     std::error_code error;
@@ -235,7 +235,7 @@ std::vector<Finding> find_room(const fs::path& out) {
              writable && free > least_room, true, "choose another folder with --out"}};
 }
 
-std::string line_of(const Finding& finding, std::size_t width) {
+std::string line_of(const Diagnosis& finding, std::size_t width) {
     const char* mark = finding.good ? "ok     " : finding.needed ? "MISSING" : "absent ";
     std::string line = fmt::format("{}  {:<{}}  {}\n", mark, finding.what, width, finding.state);
     if (!finding.good) line += fmt::format("{:{}}{}\n", "", 9 + width + 2, finding.remedy);
@@ -251,17 +251,17 @@ class Doctor final : public Verb {
     void add_options(CLI::App&) override {}
 
     int run(Reporter&) override {
-        std::vector<Finding> all{{"program", where_program_is(), true, true, ""}};
-        for (std::vector<Finding> found :
+        std::vector<Diagnosis> all{{"program", where_program_is(), true, true, ""}};
+        for (std::vector<Diagnosis> found :
              {find_processors(), find_room(output_base()), find_drawing(), find_films(), find_letters(),
               find_programs(), find_imports(), find_packings()})
             all.insert(all.end(), found.begin(), found.end());
         std::size_t width = 0;
-        for (const Finding& finding : all) width = std::max(width, finding.what.size());
+        for (const Diagnosis& finding : all) width = std::max(width, finding.what.size());
         std::string text;
-        for (const Finding& finding : all) text += line_of(finding, width);
+        for (const Diagnosis& finding : all) text += line_of(finding, width);
         const bool films =
-            std::all_of(all.begin(), all.end(), [](const Finding& one) { return one.good || !one.needed; });
+            std::all_of(all.begin(), all.end(), [](const Diagnosis& one) { return one.good || !one.needed; });
         text += films ? "Films can be made here.\n"
                       : "Films cannot be made here before what is MISSING is there.\n";
         print_result(text);

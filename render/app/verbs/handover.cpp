@@ -95,7 +95,7 @@ class Handover final : public Verb {
         const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
         const int threads = plan_threads(processors, false, scene.grains()).engine;
         const StartState start = start_state(carried, threads, watcher(reporter));
-        if (start.stopped) return 128 + stop_signal();
+        if (start.stopped) return signal_base + stop_signal();
         if (carried.engine == PeerEngine::liggghts) make_room_for_walls(carried);
         if (folder_.force && folder_.out) fs::remove_all(*folder_.out);
         const RunFolder folder(folder_);

@@ -9,8 +9,6 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;  // 128 + N is the exit status after signal N
-
 class Join final : public Verb {
   public:
     Join()

@@ -27,8 +27,6 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;  // 128 + N is the exit status after signal N
-
 // Refuses keys of the film's segments together with --every, which draws the frames of the trajectory at
 // their own pace.
 void check_no_segments(const Assignments& sets) {

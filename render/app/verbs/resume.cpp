@@ -175,7 +175,7 @@ class Resume final : public Verb {
             reporter.info(fmt::format("{}: only its page is missing", folder.string()));
             const auto go_on = [&](double) { return reporter.stop_signal() == 0; };
             page = film_.page(folder, go_on).value_or("");
-            if (page.empty()) return 128 + reporter.stop_signal();
+            if (page.empty()) return signal_base + reporter.stop_signal();
         }
         complete_run_json(folder / "run.json", page);
         reporter.info(fmt::format("wrote {}: {}run.json", folder.string(), page.empty() ? "" : page + ", "));

@@ -32,7 +32,6 @@
 namespace grainreel {
 namespace {
 
-constexpr int signal_base = 128;      // 128 + N is the exit status after signal N
 constexpr double table_interval = 5;  // s between two versions of study.csv while members run
 constexpr std::size_t most_listed = 40;
 

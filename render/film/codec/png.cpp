@@ -28,20 +28,20 @@ struct FileCloser {
 using FilePtr = std::unique_ptr<std::FILE, FileCloser>;
 
 // What a libpng callback needs to know. A callback must not throw, since exceptions cannot pass through C.
-struct Target {
+struct PngTarget {
     std::FILE* file = nullptr;
     std::string error;
 };
 
 void on_write(png_structp png, png_bytep data, std::size_t size) {
-    const Target& target = *static_cast<Target*>(png_get_io_ptr(png));
+    const PngTarget& target = *static_cast<PngTarget*>(png_get_io_ptr(png));
     if (std::fwrite(data, 1, size, target.file) != size) png_error(png, std::strerror(errno));
 }
 
 void on_flush(png_structp) {}
 
 [[noreturn]] void on_error(png_structp png, png_const_charp message) {
-    static_cast<Target*>(png_get_error_ptr(png))->error = message;
+    static_cast<PngTarget*>(png_get_error_ptr(png))->error = message;
     png_longjmp(png, 1);
 }
 
@@ -83,16 +83,16 @@ std::vector<std::uint8_t> compressed(const std::vector<std::uint8_t>& bytes) {
     return out;
 }
 
-class Writer {
+class PngWriter {
   public:
-    explicit Writer(Target& target)
+    explicit PngWriter(PngTarget& target)
         : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &target, on_error, on_warning)),
           info_(png_ ? png_create_info_struct(png_) : nullptr) {
         if (png_) png_set_write_fn(png_, &target, on_write, on_flush);
     }
-    ~Writer() { png_destroy_write_struct(&png_, &info_); }
-    Writer(const Writer&) = delete;
-    Writer& operator=(const Writer&) = delete;
+    ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
 
     // Writes the file with `data` as its one IDAT chunk. Returns false after an error. Nothing in this
     // function may need a destructor, since libpng leaves it by longjmp.
@@ -140,10 +140,10 @@ std::string write_file(const std::filesystem::path& path, const Picture& picture
     const int made = make_plain(path);
     FilePtr file(made < 0 ? nullptr : ::fdopen(made, "wb"));
     if (!file) return std::strerror(errno);
-    Target target{file.get(), {}};
+    PngTarget target{file.get(), {}};
     std::vector<png_text> chunks = png_texts(texts);
     const std::vector<std::uint8_t> data = compressed(filtered(picture, alpha ? rgba : rgb));
-    Writer writer(target);
+    PngWriter writer(target);
     if (!writer.write(picture, alpha, dpi, data, chunks.data(), static_cast<int>(chunks.size())))
         return target.error.empty() ? "no memory" : target.error;
     return std::fclose(file.release()) == 0 ? "" : std::strerror(errno);

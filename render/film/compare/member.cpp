@@ -137,8 +137,8 @@ void check_count(std::size_t count, const CompareRequest& what) {
         throw UserError(fmt::format("--vary: has {} values; a film shows {} at most", count, most_panels));
     if (count < 2 || count > most_panels)
         throw UserError(fmt::format(
-            "compare takes 2 to {} scenes or folders of runs, not {}{}; see {} compare --help",
-            most_panels, count, count == 1 ? " (or one with --vary KEY=VALUE,VALUE)" : "", program_call()));
+            "compare takes 2 to {} scenes or folders of runs, not {}{}; see {} compare --help", most_panels,
+            count, count == 1 ? " (or one with --vary KEY=VALUE,VALUE)" : "", program_call()));
 }
 
 std::vector<Input> inputs_of(const CompareRequest& what) {

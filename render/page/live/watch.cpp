@@ -32,7 +32,7 @@ constexpr Seconds farewell{3};
 constexpr Seconds longest_farewell{15};
 constexpr int priority = 10;  // nice value, up to 19: programs that compute go first
 
-constexpr const char* html = "text/html; charset=utf-8";
+constexpr const char* page_type = "text/html; charset=utf-8";
 
 WatchAnswer part(const LiveSnapshot::Bytes& bytes, const char* type) {
     if (!bytes) return text_answer(404, "The run has none yet.\n");
@@ -119,7 +119,7 @@ class Watch {
         }
         last_question_ = Seconds(Steady::now().time_since_epoch());
         const LiveSnapshot now = run_.now();
-        if (request.path == "/") return part(now.page, html);
+        if (request.path == "/") return part(now.page, page_type);
         if (request.path == "/live/state") return part(now.state, "application/json");
         if (request.path == "/live/measures") return part(now.measures, "application/json");
         if (request.path == "/live/picture") return part(now.picture, "image/jpeg");

@@ -65,13 +65,13 @@ PangoContext* make_context(bool own) {
     pango_context_set_round_glyph_positions(made, FALSE);
     return made;
 }
-using Context = std::unique_ptr<PangoContext, Unref>;
+using TextContext = std::unique_ptr<PangoContext, Unref>;
 PangoContext* own_context() {
-    thread_local const Context context(make_context(true));
+    thread_local const TextContext context(make_context(true));
     return context.get();
 }
 PangoContext* system_context() {
-    thread_local const Context context(make_context(false));
+    thread_local const TextContext context(make_context(false));
     return context.get();
 }
 

@@ -26,7 +26,7 @@ struct Spread {
 // Along one axis of the picture a point (u, z) is inside when |u - c| <= k (D + z). D is the eye's distance
 // from the origin, c is its shift, and k is the slope of the frustum's side. So c must lie between max(u - k
 // z) - k D and min(u + k z) + k D, which gives the least D and then c.
-struct Side {
+struct ViewAxis {
     Spread rising, falling;  // spreads of u + k z and of u - k z
     double slope;
     void take(double u, double z) {
@@ -106,7 +106,7 @@ View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Recta
     const double half_height = std::max(1.0, 0.5 * port.height - margin);
     const double focal = focal_length(camera, picture_height);
     Spread across, upward, away;
-    Side sideways{{}, {}, half_width / focal}, vertical{{}, {}, half_height / focal};
+    ViewAxis sideways{{}, {}, half_width / focal}, vertical{{}, {}, half_height / focal};
     for (const Vec3& point : points) {
         const double x = point.dot(view.right), y = point.dot(view.up), z = point.dot(view.forward);
         across.take(x);

@@ -26,9 +26,9 @@ namespace grainreel {
 namespace {
 
 // Adds up the times of the stages of a frame. It does nothing where `times` is null.
-class Stopwatch {
+class DrawStopwatch {
   public:
-    Stopwatch(const gl::Functions& gl, DrawTimes* times) : gl_(gl), times_(times) {}
+    DrawStopwatch(const gl::Functions& gl, DrawTimes* times) : gl_(gl), times_(times) {}
     // The time since the last call, or since the watch was made, belongs to `stage`.
     void lap(double DrawTimes::*stage) {
         if (!times_) return;
@@ -131,12 +131,12 @@ struct Renderer::Impl {
     void draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
               DrawTimes* times);
     void copy_words(Picture& into) const;
-    void draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch);
+    void draw_exposed(const Frame& frame, const View& view, Picture& into, DrawStopwatch& watch);
     void draw_moment(const Frame& frame, const Frame* marked, const View& view, Picture& into,
-                     Stopwatch& watch);
-    const Layer& draw_grains(SpherePainter& painter, Stopwatch& watch);
-    void draw_solid_meshes(const Frame& frame, Stopwatch& watch);
-    void draw_other_meshes(Stopwatch& watch);
+                     DrawStopwatch& watch);
+    const Layer& draw_grains(SpherePainter& painter, DrawStopwatch& watch);
+    void draw_solid_meshes(const Frame& frame, DrawStopwatch& watch);
+    void draw_other_meshes(DrawStopwatch& watch);
     const Layer* draw_before();
     void start_from(const Frame& frame);
     void point_out(PointedOut what);
@@ -150,7 +150,7 @@ struct Renderer::Impl {
 void Renderer::Impl::draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
                           DrawTimes* times) {
     context->make_current();
-    Stopwatch watch(context->gl(), times);
+    DrawStopwatch watch(context->gl(), times);
     const View view = path.at(film_time);
     if (!started) start_from(frame);
     overlay.write(words, frame, playback, view);
@@ -205,7 +205,7 @@ void Renderer::Impl::copy_words(Picture& into) const {
 }
 
 // Draws all moments while the shutter is open. Each of them gets the marks of the frame itself.
-void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture& into, Stopwatch& watch) {
+void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture& into, DrawStopwatch& watch) {
     if (!exposure) exposure.emplace(port);
     const Frame marked = to_be_marked(shown.of(exaggeration.shown(frame)));
     for (const FramePtr& moment : frame.exposed) {
@@ -220,7 +220,7 @@ void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture&
 
 // marked: the frame whose marks are drawn; null: the frame itself.
 void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, const View& view,
-                                 Picture& into, Stopwatch& watch) {
+                                 Picture& into, DrawStopwatch& watch) {
     const Frame& frame = exaggeration.shown(true_frame);
     eye = scene.film.camera.follow ? view.moved_by(way_of_container(scene, frame)) : view;
     const Frame& all = shown.of(frame);
@@ -279,21 +279,21 @@ const Layer* Renderer::Impl::draw_before() {
     return &marks_alone->draw(shape_painter, shapes.over);
 }
 
-void Renderer::Impl::draw_solid_meshes(const Frame& frame, Stopwatch& watch) {
+void Renderer::Impl::draw_solid_meshes(const Frame& frame, DrawStopwatch& watch) {
     const MeshPaints paints = mesh_paints(palette, scene.film.camera.up, scene.film.height);
     mesh_projection.take(eye, sphere_painter.sight(), sphere_painter.cut(), meshes.at(frame), paints, team);
     mesh_painter->draw_solid(mesh_projection, sphere_painter.sight(), team);
     watch.lap(&DrawTimes::walls);
 }
 
-void Renderer::Impl::draw_other_meshes(Stopwatch& watch) {
+void Renderer::Impl::draw_other_meshes(DrawStopwatch& watch) {
     mesh_painter->draw_rest(mesh_projection, sphere_painter.sight(), sphere_painter.visibility(),
                             mesh_inks(palette), team);
     watch.lap(&DrawTimes::walls);
 }
 
 // Draws the grains that the painter has taken.
-const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, Stopwatch& watch) {
+const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, DrawStopwatch& watch) {
     painter.find_visible(mesh_painter ? mesh_painter->depth() : SolidDepth());
     painter.find_order(eye, shapes);
     watch.lap(&DrawTimes::spheres);

@@ -68,7 +68,7 @@ std::string words_of(const MissingLetters& missing) {
                        letters > most_named ? "..." : "", missing.script);
 }
 
-void add(std::vector<MissingLetters>& all, const MissingLetters& one) {
+void add_missing(std::vector<MissingLetters>& all, const MissingLetters& one) {
     const auto same =
         std::find_if(all.begin(), all.end(), [&](const auto& known) { return known.script == one.script; });
     if (same == all.end())
@@ -87,7 +87,7 @@ std::vector<MissingLetters> missing_letters(const std::string& text) {
         if (!g_unichar_isprint(letter) || has_fonts_for(text_of(letter))) continue;
         MissingLetters one = kind_of(letter);
         one.letters = text_of(letter);
-        add(missing, one);
+        add_missing(missing, one);
     }
     return missing;
 }
@@ -99,7 +99,7 @@ std::string missing_letters_warning(const std::vector<std::pair<std::string, std
         for (const MissingLetters& one : missing_letters(text)) {
             if (all.empty()) place = where;
             for (const char* at = one.letters.c_str(); *at != '\0'; at = g_utf8_next_char(at))
-                add(all, {text_of(g_utf8_get_char(at)), one.script, one.package});
+                add_missing(all, {text_of(g_utf8_get_char(at)), one.script, one.package});
         }
     if (all.empty()) return "";
     std::vector<std::string> words, packages;

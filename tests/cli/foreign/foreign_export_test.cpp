@@ -115,8 +115,8 @@ TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
             }
         }
     }
-    const Ended one = program(
-        {"export", "ours", "--to", "csv", "--at", "0", "--out", "one.csv", "--progress", "json"});
+    const Ended one =
+        program({"export", "ours", "--to", "csv", "--at", "0", "--out", "one.csv", "--progress", "json"});
     EXPECT_THAT(one.err, HasSubstr(R"("stage":"exporting")"));
     EXPECT_THAT(one.err, HasSubstr("wrote one.csv: 1 frame, "));
     const Ended both = program(

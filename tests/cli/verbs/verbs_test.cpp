@@ -56,7 +56,8 @@ TEST(Verbs, NameTheOptionThatWasMeant) {
 }
 
 TEST(Verbs, ShowTheirOwnHelpToAMistake) {
-    EXPECT_THAT(run_program({"movie", "a.toml", "--seed"}, {}).err, HasSubstr("; see grainreel movie --help"));
+    EXPECT_THAT(run_program({"movie", "a.toml", "--seed"}, {}).err,
+                HasSubstr("; see grainreel movie --help"));
     EXPECT_THAT(run_program({"render"}, {}).err, HasSubstr("RUN is required; see grainreel render --help"));
     EXPECT_THAT(run_program({"--no-such"}, {}).err, HasSubstr("; see grainreel --help"));
 }

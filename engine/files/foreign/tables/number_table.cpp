@@ -24,14 +24,14 @@ namespace {
 using Cells = std::vector<std::string_view>;
 
 // A group of rows that follow each other in the file.
-struct Run {
+struct RowGroup {
     std::uint64_t byte = 0, lines = 0;  // where they begin; number of lines before them
     std::uint64_t rows = 0, last_line = 0;
 };
 
 struct FrameRows {
     RawMoment moment;
-    std::vector<Run> runs;
+    std::vector<RowGroup> runs;
 };
 
 // The smallest and the largest number of each column of a table with four columns.
@@ -82,14 +82,14 @@ class NumberTable : public RawFile {
     void find_frames();
     bool take_row(std::map<double, FrameRows>& frames);
     double clock_of(std::size_t column) const;
-    void add_rows(std::vector<ColumnFiller>& columns, const Run& run) const;
+    void add_rows(std::vector<ColumnFiller>& columns, const RowGroup& run) const;
     void add_row(std::vector<ColumnFiller>& columns) const;
     void name_nameless();
 
     TableLayout layout_;
     RawFacts facts_;
     std::vector<RawMoment> moments_;
-    std::vector<std::vector<Run>> runs_;  // the rows of each moment
+    std::vector<std::vector<RowGroup>> runs_;  // the rows of each moment
     std::vector<std::string> news_;
     std::optional<std::size_t> time_, step_;  // numbers of these columns
     double time_unit_ = 1;                    // s
@@ -249,7 +249,7 @@ void NumberTable::add_row(std::vector<ColumnFiller>& columns) const {
     }
 }
 
-void NumberTable::add_rows(std::vector<ColumnFiller>& columns, const Run& run) const {
+void NumberTable::add_rows(std::vector<ColumnFiller>& columns, const RowGroup& run) const {
     lines_.go_to(run.byte, run.lines);
     for (std::uint64_t row = 0; row < run.rows; ++row) {
         if (!lines_.next()) lines_.fault("the file has become shorter while it was read");
@@ -262,7 +262,7 @@ RawFrame NumberTable::read(std::size_t index) const {
     std::vector<ColumnFiller> columns;
     for (std::size_t i = 0; i < layout_.names.size(); ++i)
         columns.emplace_back(layout_.names[i], layout_.is_word[i] ? CellKind::word : CellKind::number);
-    for (const Run& run : runs_.at(index)) add_rows(columns, run);
+    for (const RowGroup& run : runs_.at(index)) add_rows(columns, run);
     RawFrame frame;
     frame.time = moments_[index].time;
     frame.step = moments_[index].step;

@@ -19,7 +19,7 @@ using Cells = std::vector<std::string_view>;
 constexpr std::size_t most_rows = 40;  // rows from which the layout is found
 
 // A way in which a table can be written.
-struct Writing {
+struct Notation {
     char separator;
     bool decimal_comma;
 };
@@ -177,7 +177,7 @@ bool must_be_numbers(const std::string& name) {
 // Finds out for each column whether it holds words. A column of places, velocities or radii counts as one of
 // words only if at least half of its cells are words; otherwise a word there is a mistake in its row. Returns
 // none where a row has another number of cells than the others.
-std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Writing& writing,
+std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Notation& writing,
                                           const std::vector<std::string>& names, bool closed,
                                           bool last_may_be_cut) {
     const std::size_t columns = names.size();
@@ -206,7 +206,7 @@ bool names_places(const std::vector<std::string>& names) {
 }
 
 // The layout of the sample if it is written in this way; none where it is not, or is no table of grains.
-std::optional<TableLayout> layout_by(const Sample& sample, const Writing& writing, bool whole) {
+std::optional<TableLayout> layout_by(const Sample& sample, const Notation& writing, bool whole) {
     Cells first;
     const bool closed =
         writing.separator != ' ' && trimmed_blanks(sample.filled.front()).ends_with(writing.separator);

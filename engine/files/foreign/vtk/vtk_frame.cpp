@@ -100,14 +100,14 @@ bool is_contact(const VtkCells& cells, std::size_t cell) {
 }
 
 // The points that are grains, and the vertex cell of each.
-struct Grains {
+struct PieceGrains {
     VtkRows points, cells;
 };
 
 // A point with several vertex cells is one grain with the numbers of the first cell.
-Grains grains_of(const VtkPiece& piece) {
+PieceGrains grains_of(const VtkPiece& piece) {
     const VtkCells& cells = piece.cells;
-    Grains grains;
+    PieceGrains grains;
     if (cells.size() == 0) {
         grains.points.count = piece.points;
         return grains;
@@ -138,7 +138,7 @@ Grains grains_of(const VtkPiece& piece) {
 }
 
 void add_grains(VtkPiece& piece, RawTable& table) {
-    const Grains grains = grains_of(piece);
+    const PieceGrains grains = grains_of(piece);
     if (grains.points.count == 0 && piece.points > 0) return;
     std::vector<RawColumn> columns = place_columns(piece.places, grains.points, "");
     std::vector<RawColumn> more = columns_of(std::move(piece.point_data), grains.points);

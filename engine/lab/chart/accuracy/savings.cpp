@@ -15,7 +15,7 @@
 namespace grainreel {
 namespace {
 
-constexpr int side = 20;  // grains along an edge
+constexpr int kSide = 20;  // grains along an edge
 
 PairPlan contact() {
     return latching_pair(bench_stiffness, 0.9, 0.5);
@@ -27,9 +27,9 @@ SmallWorld& build(SmallWorld& world) {
     world.add_floor();
     world.around.gravity = {0, 0, -9.81};
     const double apart = 2 * bench_radius * (1 - 1e-4);
-    for (int z = 0; z < side; ++z)
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x)
+    for (int z = 0; z < kSide; ++z)
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x)
                 world.add(apart * Vec3(x, y, z) + Vec3(0, 0, 0.9999 * bench_radius),
                           0.01 * Vec3(y % 2, z % 2, x % 2));
     return world;
@@ -40,7 +40,7 @@ double cost(SmallWorld& world, std::int64_t steps) {
     const auto begin = std::chrono::steady_clock::now();
     world.run(steps);
     const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
-    return taken.count() / (static_cast<double>(steps) * side * side * side);
+    return taken.count() / (static_cast<double>(steps) * kSide * kSide * kSide);
 }
 
 // Two small worlds that are equal except for one thing that costs time: one has it and the other does not.

@@ -17,9 +17,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double radius = bench_radius, stiffness = bench_stiffness;
-constexpr double speed = 0.3;  // m/s, of impacts
-constexpr double friction = 0.3;
+constexpr double kRadius = bench_radius, kStiffness = bench_stiffness;
+constexpr double kSpeed = 0.3;  // m/s, of impacts
+constexpr double kFriction = 0.3;
 
 double mass() {
     return bench_mass();
@@ -31,13 +31,13 @@ PairPlan pair_of(const Method& method, double restitution, double effective_mass
     PairPlan pair;
     pair.model = {method.normal, method.tangential, false, method.precision};
     pair.restitution = restitution;
-    pair.loading_stiffness = stiffness;
-    pair.unloading_stiffness = stiffness / (restitution * restitution);
+    pair.loading_stiffness = kStiffness;
+    pair.unloading_stiffness = kStiffness / (restitution * restitution);
     pair.tangential_ratio = method.normal == NormalForce::hertz ? 2 * 0.7 / 1.7 : 0.8;
-    pair.tangential_stiffness = pair.tangential_ratio * stiffness;
+    pair.tangential_stiffness = pair.tangential_ratio * kStiffness;
     pair.gamma = 1.0 / 3;
-    pair.friction = method.tangential == TangentialLaw::none ? 0 : friction;
-    const double natural = std::sqrt(stiffness / effective_mass);
+    pair.friction = method.tangential == TangentialLaw::none ? 0 : kFriction;
+    const double natural = std::sqrt(kStiffness / effective_mass);
     if (method.normal == NormalForce::spring_dashpot)
         pair.normal_damping = 2 * natural * linear_damping(restitution, false);
     pair.tangential_damping = pair.normal_damping / 2;
@@ -49,14 +49,14 @@ PairPlan pair_of(const Method& method, double restitution, double effective_mass
 // Duration (s) of a free impact.
 double contact_time(const Method& method, double restitution, double effective_mass,
                     double effective_radius) {
-    const double natural = std::sqrt(stiffness / effective_mass);
+    const double natural = std::sqrt(kStiffness / effective_mass);
     if (method.normal == NormalForce::spring_dashpot) {
         const double beta = linear_damping(restitution, true);
         return pi / (natural * std::sqrt(1 - beta * beta));
     }
     if (method.normal == NormalForce::hertz) {
         const double k = 4.0 / 3 * 2e8 * std::sqrt(effective_radius);
-        return hertz_contact_time(effective_mass, k, speed);
+        return hertz_contact_time(effective_mass, k, kSpeed);
     }
     return pi / 2 * (1 + restitution) / natural;
 }
@@ -71,13 +71,13 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
     Method smooth = method;
     smooth.tangential = TangentialLaw::none;
     const double effective = mass() / 2;
-    const double time = contact_time(smooth, restitution, effective, radius / 2), length = time / steps;
+    const double time = contact_time(smooth, restitution, effective, kRadius / 2), length = time / steps;
     NormalErrors errors;
     for (int phase = 0; phase < phases; ++phase) {
         SmallWorld world(pair_of(smooth, restitution, effective), length, smooth.integrator);
-        const double apart = radius + 0.5 * (phase + 0.5) / phases * speed * length;
-        world.add(Vec3(-apart, 0, 0), Vec3(speed / 2, 0, 0));
-        world.add(Vec3(apart, 0, 0), Vec3(-speed / 2, 0, 0));
+        const double apart = kRadius + 0.5 * (phase + 0.5) / phases * kSpeed * length;
+        world.add(Vec3(-apart, 0, 0), Vec3(kSpeed / 2, 0, 0));
+        world.add(Vec3(apart, 0, 0), Vec3(-kSpeed / 2, 0, 0));
         world.start();
         double pushed = 0;
         const std::int64_t most = static_cast<std::int64_t>(std::ceil(3 * steps)) + 5;
@@ -85,7 +85,7 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
             world.run(1);
             pushed += world.grains.load[0].force.squaredNorm() > 0;
         }
-        const double e = (world.grains.motion[1].velocity - world.grains.motion[0].velocity).x() / speed;
+        const double e = (world.grains.motion[1].velocity - world.grains.motion[0].velocity).x() / kSpeed;
         // The loop sorts grains by place. On a line, [1] is therefore the one ahead.
         errors.restitution = std::max(errors.restitution, std::abs(std::abs(e) - restitution));
         errors.contact_time = std::max(errors.contact_time, std::abs(pushed / steps - 1));
@@ -95,20 +95,20 @@ NormalErrors normal_errors(const Method& method, double restitution, double step
 
 namespace {
 
-struct Rebound {
+struct ObliqueRebound {
     double velocity, spin;  // divided by the speed before the impact
 };
 
-Rebound oblique(const Method& method, double restitution, double steps, double angle) {
-    const double time = contact_time(method, restitution, mass(), radius), length = time / steps;
+ObliqueRebound oblique(const Method& method, double restitution, double steps, double angle) {
+    const double time = contact_time(method, restitution, mass(), kRadius), length = time / steps;
     SmallWorld world(pair_of(method, restitution, mass()), length, method.integrator);
     world.add_floor();
-    const double down = speed * std::cos(angle);
-    world.add(Vec3(0, 0, radius + 0.5 * down * length), Vec3(speed * std::sin(angle), 0, -down));
+    const double down = kSpeed * std::cos(angle);
+    world.add(Vec3(0, 0, kRadius + 0.5 * down * length), Vec3(kSpeed * std::sin(angle), 0, -down));
     world.start();
     // A grazing impact of a Hertz contact lasts longer: the time grows with speed^(-1/5).
     world.run(static_cast<std::int64_t>(std::ceil(4 * steps)) + 5);
-    return {world.grains.motion[0].velocity.x() / speed, radius * world.grains.motion[0].spin.y() / speed};
+    return {world.grains.motion[0].velocity.x() / kSpeed, kRadius * world.grains.motion[0].spin.y() / kSpeed};
 }
 
 }  // namespace
@@ -123,8 +123,8 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
     ObliqueErrors errors;
     for (int degrees = 0; degrees <= 85; degrees += 5) {
         const double angle = degrees * pi / 180;
-        const Rebound is = oblique(method, restitution, steps, angle);
-        const Rebound should = oblique(reference, restitution, 4000, angle);
+        const ObliqueRebound is = oblique(method, restitution, steps, angle);
+        const ObliqueRebound should = oblique(reference, restitution, 4000, angle);
         errors.velocity = std::max(errors.velocity, std::abs(is.velocity - should.velocity));
         errors.spin = std::max(errors.spin, std::abs(is.spin - should.spin));
     }
@@ -139,9 +139,9 @@ std::vector<double> shear(const Method& method, std::int64_t steps_between, doub
     const double length = contact / (8 * static_cast<double>(steps_between));
     SmallWorld world(pair_of(method, 1, mass()), length, method.integrator);
     world.add_floor();
-    const double push = 0.02, gravity = 4 * push * std::sqrt(stiffness / mass());
+    const double push = 0.02, gravity = 4 * push * std::sqrt(kStiffness / mass());
     world.around.gravity = {0, 0, -gravity};
-    world.add(Vec3(0, 0, radius - mass() * gravity / stiffness), Vec3(push / 2, 0, -push));
+    world.add(Vec3(0, 0, kRadius - mass() * gravity / kStiffness), Vec3(push / 2, 0, -push));
     world.start();
     std::vector<double> velocities;
     for (int k = 0; k < 24; ++k) {
@@ -154,7 +154,7 @@ std::vector<double> shear(const Method& method, std::int64_t steps_between, doub
 }  // namespace
 
 double shear_error(const Method& method, double steps) {
-    const double contact = contact_time(method, 1, mass(), radius);
+    const double contact = contact_time(method, 1, mass(), kRadius);
     const auto is = shear(method, static_cast<std::int64_t>(steps / 8), contact);
     const auto should = shear(method, 2500, contact);
     double largest = 0;
@@ -168,11 +168,11 @@ double drift_from(double height, double gravity, const Method& method, double le
     SmallWorld world(pair_of(method, 1, mass()), length, method.integrator);
     world.add_floor();
     world.around.gravity = {0, 0, -gravity};
-    world.add(Vec3(0, 0, radius + height), Vec3(0, 0, 0));
+    world.add(Vec3(0, 0, kRadius + height), Vec3(0, 0, 0));
     world.start();
     world.run(steps);
     const double end = kinetic_energy(world.grains).translation +
-                       mass() * gravity * (world.grains.place[0].position.z() - radius) +
+                       mass() * gravity * (world.grains.place[0].position.z() - kRadius) +
                        summarise_contacts(*world.loop, world.step).stored;
     return std::abs(end / (mass() * gravity * height) - 1);
 }
@@ -183,8 +183,8 @@ double bounce_drift(const Method& method, double steps, int bounces) {
     constexpr int heights = 8;
     Method smooth = method;
     smooth.tangential = TangentialLaw::none;
-    const double touch = contact_time(smooth, 1, mass(), radius);
-    const double gravity = 2 * speed / (20 * touch), height = 0.5 * speed * speed / gravity;
+    const double touch = contact_time(smooth, 1, mass(), kRadius);
+    const double gravity = 2 * kSpeed / (20 * touch), height = 0.5 * kSpeed * kSpeed / gravity;
     double largest = 0;
     for (int k = 0; k < heights; ++k) {
         const double share = 0.9 + 0.2 * (k + 0.5) / heights;
@@ -197,7 +197,7 @@ double bounce_drift(const Method& method, double steps, int bounces) {
 double cost_of_a_contact(const Method& method) {
     constexpr int side = 20, steps = 60;
     SmallWorld world(pair_of(method, 0.9, mass() / 2), 1e-9, method.integrator);
-    const double apart = 2 * radius * (1 - 1e-4);
+    const double apart = 2 * kRadius * (1 - 1e-4);
     for (int x = 0; x < side; ++x)
         for (int y = 0; y < side; ++y)
             for (int z = 0; z < side; ++z) world.add(apart * Vec3(x, y, z), 0.01 * Vec3(y % 2, z % 2, x % 2));

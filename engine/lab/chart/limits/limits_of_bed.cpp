@@ -19,7 +19,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double frequency = 20;  // Hz
+constexpr double kFrequency = 20;  // Hz
 
 std::string box(int grains, double duration) {
     return fmt::format(
@@ -64,7 +64,7 @@ Finding resting_bed(bool quick) {
 }
 
 // A bed that is shaken sideways, gently enough for all contacts to hold.
-const char* tray = R"([[species]]
+const char* kTray = R"([[species]]
 name = "glass"
 count = 150
 diameter = { min = "3.6 mm", max = "4.4 mm" }
@@ -90,9 +90,9 @@ trajectory = false
 double creep_of(LeverArms arms, int seed, int periods) {
     constexpr int settled = 10;
     const Scene scene = read_scene_text(
-        tray, "tray.toml",
+        kTray, "tray.toml",
         {std::string("contact.arms=") + (arms == LeverArms::radius ? "radius" : "contact-plane"),
-         fmt::format("run.seed={}", seed), fmt::format("run.duration={}", (settled + periods) / frequency)});
+         fmt::format("run.seed={}", seed), fmt::format("run.duration={}", (settled + periods) / kFrequency)});
     const Plan plan = make_plan(scene);
     Simulation simulation(scene, plan, 1);
     simulation.pack();
@@ -127,7 +127,7 @@ Finding hard_shaking(bool quick) {
          quick ? std::vector<double>{3, 20} : std::vector<double>{1, 2, 3, 5, 8, 12, 16, 20}) {
         const Scene scene =
             read_scene_text(box(quick ? 60 : 200, quick ? 0.3 : 0.5) +
-                                fmt::format("[drive]\nfrequency = {}\ng_level = {}\n", frequency, level),
+                                fmt::format("[drive]\nfrequency = {}\ng_level = {}\n", kFrequency, level),
                             "bed.toml");
         const Plan plan = make_plan(scene);
         Simulation simulation(scene, plan, 1);
@@ -166,22 +166,22 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double gravity = 9.81;  // m/s2
+constexpr double kGravity = 9.81;  // m/s2
 
 std::unique_ptr<SmallWorld> on_a_plate(const PairPlan& pair, int steps_a_period, double g_level,
                                        double ramp) {
-    auto whole = std::make_unique<SmallWorld>(pair, 1 / (frequency * steps_a_period));
+    auto whole = std::make_unique<SmallWorld>(pair, 1 / (kFrequency * steps_a_period));
     SmallWorld& world = *whole;
     world.plan.clock.steps_per_period = steps_a_period;
     Drive drive;
     drive.present = true;
-    drive.frequency = frequency;
-    drive.amplitude = g_level * gravity / std::pow(2 * pi * frequency, 2);
+    drive.frequency = kFrequency;
+    drive.amplitude = g_level * kGravity / std::pow(2 * pi * kFrequency, 2);
     drive.ramp = ramp;
     world.add_floor();
     world.around.faces[0].body.driven = true;
     world.around.motion = WallMotion(drive, world.plan.clock);
-    world.around.gravity = {0, 0, -gravity};
+    world.around.gravity = {0, 0, -kGravity};
     return whole;
 }
 
@@ -193,9 +193,9 @@ Finding kick(double ramp) {
     constexpr int steps = 40000, points = 60;
     const auto whole = on_a_plate(latching_pair(bench_stiffness, e), steps, level, ramp);
     SmallWorld& world = *whole;
-    world.add(Vec3(0, 0, bench_radius - bench_mass() * gravity / bench_stiffness));
+    world.add(Vec3(0, 0, bench_radius - bench_mass() * kGravity / bench_stiffness));
     world.start();
-    const double speed = level * gravity / (2 * pi * frequency);
+    const double speed = level * kGravity / (2 * pi * kFrequency);
     Finding finding;
     finding.theory = ramp > 0 ? 0 : e;
     finding.measured = 0;
@@ -216,15 +216,15 @@ Finding kick(double ramp) {
 // the steady swing a (K + i c w) / (K - m w^2 + i c w), divided by the amplitude. The frequency of the drive
 // is a fifth of the natural one.
 double steady_error(int steps_a_period) {
-    const double omega = 2 * pi * frequency, natural = 5 * omega, damping = natural;  // 1/s
+    const double omega = 2 * pi * kFrequency, natural = 5 * omega, damping = natural;  // 1/s
     PairPlan pair;
     pair.model = {NormalForce::spring_dashpot, TangentialLaw::none};
     pair.loading_stiffness = pair.unloading_stiffness = natural * natural * bench_mass();
     pair.normal_damping = damping;
     const auto whole = on_a_plate(pair, steps_a_period, 0.5, 3);
     SmallWorld& world = *whole;
-    const double amplitude = 0.5 * gravity / (omega * omega),
-                 rest = bench_radius - gravity / (natural * natural);
+    const double amplitude = 0.5 * kGravity / (omega * omega),
+                 rest = bench_radius - kGravity / (natural * natural);
     const std::complex<double> spring(natural * natural, damping * omega);
     const std::complex<double> swing = amplitude * spring / (spring - omega * omega);
     world.add(Vec3(0, 0, rest));
@@ -272,31 +272,31 @@ std::vector<Experiment> drive_experiments() {
 
 namespace {
 
-constexpr double height = 0.3, radius = 0.0015;  // m
+constexpr double kHeight = 0.3, kRadius = 0.0015;  // m
 
 double weight() {
-    return sphere_mass_of(radius) * gravity;
+    return sphere_mass_of(kRadius) * kGravity;
 }
 
 // Unit in the last place (m) of a position at `height`.
 double last_place(bool in_single) {
-    return in_single ? std::nextafter(static_cast<float>(height), 1.0F) - static_cast<float>(height)
-                     : std::nextafter(height, 1.0) - height;
+    return in_single ? std::nextafter(static_cast<float>(kHeight), 1.0F) - static_cast<float>(kHeight)
+                     : std::nextafter(kHeight, 1.0) - kHeight;
 }
 
 // Error |N / (m g) - 1| of a bead at rest on a spring with a dashpot, root mean square over time. The plate
 // is higher than `height` by `shift` units in the last place.
 double force_error(double stiffness, bool in_single, double shift) {
-    const double mass = sphere_mass_of(radius), natural = std::sqrt(stiffness / mass);
+    const double mass = sphere_mass_of(kRadius), natural = std::sqrt(stiffness / mass);
     PairPlan pair;
     pair.model = {NormalForce::spring_dashpot, TangentialLaw::none};
     pair.loading_stiffness = pair.unloading_stiffness = stiffness;
     pair.normal_damping = natural;
     SmallWorld world(pair, 0.1 / natural);
-    world.around.gravity = {0, 0, -gravity};
-    const double plate = height + shift * last_place(in_single);
+    world.around.gravity = {0, 0, -kGravity};
+    const double plate = kHeight + shift * last_place(in_single);
     world.add_plane(Vec3(0, 0, plate), Vec3(0, 0, 1));
-    world.add(Vec3(0, 0, plate + radius - weight() / stiffness), Vec3::Zero(), {radius, bench_density});
+    world.add(Vec3(0, 0, plate + kRadius - weight() / stiffness), Vec3::Zero(), {kRadius, bench_density});
     world.start();
     constexpr int settling = 3000, looked_at = 3000;
     double squares = 0;
@@ -305,7 +305,7 @@ double force_error(double stiffness, bool in_single, double shift) {
         double& z = world.grains.place[0].position.z();
         if (in_single) z = static_cast<float>(z);
         if (k < settling) continue;
-        const double overlap = radius - (z - plate);
+        const double overlap = kRadius - (z - plate);
         squares += std::pow(stiffness * std::max(0.0, overlap) / weight() - 1, 2);
     }
     return std::sqrt(squares / looked_at);

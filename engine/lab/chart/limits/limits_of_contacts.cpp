@@ -15,7 +15,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double allowed = 0.005;  // error of the restitution that the accuracy `standard` allows
+constexpr double kAllowed = 0.005;  // error of the restitution that the accuracy `standard` allows
 
 double planned_error(const ImpactScene& impact, int phases) {
     const Plan plan = plan_of(impact);
@@ -32,13 +32,13 @@ double planned_error(const ImpactScene& impact, int phases) {
 template <class Set>
 Finding planned_errors(const std::vector<double>& values, bool quick, const Set& set) {
     Finding finding;
-    finding.theory = allowed;
+    finding.theory = kAllowed;
     finding.measured = 0;
     for (const double value : values) {
         ImpactScene impact;
         set(impact, value);
         const double error = planned_error(impact, quick ? 20 : 100);
-        finding.curve.push_back({value, error, allowed});
+        finding.curve.push_back({value, error, kAllowed});
         finding.measured = std::max(finding.measured, error);
     }
     return finding;
@@ -171,7 +171,7 @@ PairPlan contact_of(NormalForce law, double e, double effective_mass) {
 }
 
 constexpr int column_of = 8;
-constexpr double speed = 0.3;  // m/s
+constexpr double kSpeed = 0.3;  // m/s
 
 // A column of balls whose contacts take no time and come one after the other. Speeds are in units of the
 // speed of the fall.
@@ -232,7 +232,7 @@ double soft_energy_left(NormalForce law, double e, double gap) {
     world.plan.wall = {contact_of(law, e, bench_mass())};
     world.add_floor();
     for (int k = 0; k < column_of; ++k)
-        world.add(Vec3(0, 0, bench_radius + k * 2 * bench_radius + (k + 1) * gap), Vec3(0, 0, -speed));
+        world.add(Vec3(0, 0, bench_radius + k * 2 * bench_radius + (k + 1) * gap), Vec3(0, 0, -kSpeed));
     world.start();
     const double before = world.kinetic();
     for (int looks = 0; looks < 4000 && !(looks > 0 && flies_apart(world)); ++looks) world.run(200);
@@ -246,7 +246,7 @@ Experiment detachment(NormalForce law, double e, const std::string& name) {
                 Finding finding;
                 finding.theory = 1;  // only a rough value
                 for (const double gap : logarithmic(0.02, 50, quick ? 12 : 40)) {
-                    const double soft = soft_energy_left(law, e, gap * time * speed);
+                    const double soft = soft_energy_left(law, e, gap * time * kSpeed);
                     const double hard = HardColumn(gap, e).energy_left(), excess = soft / hard;
                     finding.curve.push_back({1 / gap, soft, hard});
                     if (excess > 1.2) finding.measured = 1 / gap;  // the last is the smallest that fails

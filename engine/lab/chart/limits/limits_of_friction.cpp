@@ -16,8 +16,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double gain = 1;  // most that the energy after an impact, divided by that before, may be
-const std::vector<double> phases = {0.05, 0.25, 0.45, 0.65, 0.85};
+constexpr double kGain = 1;  // most that the energy after an impact, divided by that before, may be
+const std::vector<double> kPhases = {0.05, 0.25, 0.45, 0.65, 0.85};
 
 ImpactScene on_wall(double restitution, double friction) {
     ImpactScene impact;
@@ -29,7 +29,7 @@ ImpactScene on_wall(double restitution, double friction) {
 
 double energy_ratio(const ImpactScene& impact, const Plan& plan, double angle) {
     double largest = 0;
-    for (const double phase : phases) {
+    for (const double phase : kPhases) {
         const Impact after = make_impact(impact, plan, plan.clock.step, angle, phase);
         largest = std::max(largest, after.energy / after.energy_before);
     }
@@ -38,7 +38,7 @@ double energy_ratio(const ImpactScene& impact, const Plan& plan, double angle) {
 
 Finding gain_by_friction(bool) {
     Finding finding;
-    finding.theory = gain;
+    finding.theory = kGain;
     finding.measured = 0;
     for (const double friction : {0.0, 0.1, 0.3, 0.5, 1.0, 2.0, 10.0, 1e3, 1e6}) {
         double largest = 0;
@@ -49,7 +49,7 @@ Finding gain_by_friction(bool) {
             for (int degrees = 0; degrees <= 88; degrees += 4)
                 largest = std::max(largest, energy_ratio(impact, plan, degrees * pi / 180));
         }
-        finding.curve.push_back({std::max(friction, 0.01), largest, gain});
+        finding.curve.push_back({std::max(friction, 0.01), largest, kGain});
         finding.measured = std::max(finding.measured, largest);
     }
     return finding;
@@ -88,7 +88,7 @@ Finding grazing_at_a_wall(double e) {
     const Plan plan = plan_of(impact);
     const double slides_from = std::atan(friction * std::max(3.5, 3.5 * (1 + e) - 1 / (e * 0.8)));
     Finding finding;
-    finding.theory = gain;
+    finding.theory = kGain;
     finding.measured = 0;
     for (double degrees = 0; degrees < 90; degrees += degrees < 84 ? 3 : 0.5) {
         const double angle = degrees * pi / 180, ratio = energy_ratio(impact, plan, angle);
@@ -123,13 +123,13 @@ double corner_ratio(const Plan& plan, double from_normal, double around) {
 Finding grazing_in_a_corner(double e, bool quick) {
     const Plan plan = plan_of(on_wall(e, 0.5));
     Finding finding;
-    finding.theory = gain;
+    finding.theory = kGain;
     finding.measured = 0;
     for (double degrees = 0; degrees < 90; degrees += 4) {
         double largest = 0;
         for (double around = 0; around <= 90; around += quick ? 22.5 : 7.5)
             largest = std::max(largest, corner_ratio(plan, degrees * pi / 180, around * pi / 180));
-        finding.curve.push_back({degrees, largest, gain});
+        finding.curve.push_back({degrees, largest, kGain});
         finding.measured = std::max(finding.measured, largest);
     }
     return finding;
@@ -158,15 +158,15 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double modulus = 2e8;  // Pa, of Hertz
-constexpr double friction = 0.5, gamma_of_slip = 1.0 / 3;
+constexpr double kModulus = 2e8;  // Pa, of Hertz
+constexpr double kFriction = 0.5, kGammaOfSlip = 1.0 / 3;
 
 PairPlan contact_of(TangentialLaw tangential, double mu) {
     const bool hertz = tangential == TangentialLaw::mindlin;
     PairPlan pair = latching_pair(bench_stiffness, 1, mu);
     pair.model = {hertz ? NormalForce::hertz : NormalForce::walton_braun, tangential};
-    pair.gamma = gamma_of_slip;
-    pair.modulus = modulus;
+    pair.gamma = kGammaOfSlip;
+    pair.modulus = kModulus;
     return pair;
 }
 
@@ -178,7 +178,7 @@ struct Turned {
     double length_change = 0, direction_error = 0;  // divided by |T|; rad
 };
 Turned turn_round(const Vec3& axis, int steps, int turns) {
-    DrivenContact contact(contact_of(TangentialLaw::incremental_slip, friction));
+    DrivenContact contact(contact_of(TangentialLaw::incremental_slip, kFriction));
     const Vec3 up(0, 0, 1);
     constexpr double overlap = 1e-3 * bench_radius;
     for (int k = 0; k < 50; ++k) contact.move({up, overlap, Vec3(2e-3 * overlap, 0, 0), 0});
@@ -229,7 +229,7 @@ Finding twisting_direction(bool) {
 // Berryman 1996, Mech. Mater. 24, 229).
 double made_in_a_loop(TangentialLaw law, double low, double high) {
     constexpr int steps = 4000;
-    DrivenContact contact(contact_of(law, friction));
+    DrivenContact contact(contact_of(law, kFriction));
     double overlap = 0, put_in = 0, forwards = 0;
     const auto lead = [&](double to, double slip) {
         const double rise = (to - overlap) / steps;
@@ -244,7 +244,7 @@ double made_in_a_loop(TangentialLaw law, double low, double high) {
         put_in += work;
         return work;
     };
-    const double slip = 0.2 * friction * std::min(low, high);  // well below Coulomb's limit
+    const double slip = 0.2 * kFriction * std::min(low, high);  // well below Coulomb's limit
     lead(low, 0);
     put_in = 0;
     lead(high, 0);
@@ -256,13 +256,13 @@ double made_in_a_loop(TangentialLaw law, double low, double high) {
 
 // Walton's loading curve T(s) = L [1 - (1 - (1 - gamma) K0 s / L)^(1 / (1 - gamma))]: its integral from 0
 // to s, and its value at s.
-struct Loaded {
+struct LoadingCurve {
     double work, force;
 };
-Loaded loading_curve(double limit, double slip) {
-    const double power = 1 / (1 - gamma_of_slip), x = 0.8 * bench_stiffness * slip / limit;
-    const double rest = 1 - (1 - gamma_of_slip) * x;
-    const double integral = x - (1 - std::pow(rest, power + 1)) / ((power + 1) * (1 - gamma_of_slip));
+LoadingCurve loading_curve(double limit, double slip) {
+    const double power = 1 / (1 - kGammaOfSlip), x = 0.8 * bench_stiffness * slip / limit;
+    const double rest = 1 - (1 - kGammaOfSlip) * x;
+    const double integral = x - (1 - std::pow(rest, power + 1)) / ((power + 1) * (1 - kGammaOfSlip));
     return {limit * limit / (0.8 * bench_stiffness) * integral, limit * (1 - std::pow(rest, power))};
 }
 
@@ -273,9 +273,9 @@ double made_by_theory(TangentialLaw law, double low, double high) {
         const double ratio = std::sqrt(low / high);  // ratio of the stiffnesses
         return low < high ? ratio - 1 : 1 - ratio;
     }
-    const double slip = 0.2 * friction * std::min(low, high);
-    const Loaded there = loading_curve(friction * bench_stiffness * high, slip);
-    const Loaded back = loading_curve(friction * bench_stiffness * low + there.force, slip);
+    const double slip = 0.2 * kFriction * std::min(low, high);
+    const LoadingCurve there = loading_curve(kFriction * bench_stiffness * high, slip);
+    const LoadingCurve back = loading_curve(kFriction * bench_stiffness * low + there.force, slip);
     return (there.force * slip - back.work) / there.work - 1;
 }
 

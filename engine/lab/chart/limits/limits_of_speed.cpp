@@ -178,7 +178,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double speed = 0.3;  // m/s, of an impact
+constexpr double kSpeed = 0.3;  // m/s, of an impact
 
 // ---- a soft bed: the top of a column of elastic grains, shaken so gently that nothing comes apart ----
 
@@ -245,20 +245,20 @@ Finding soft_column(bool quick) {
 // ---- a plate that reverses its motion during an elastic impact; its top speed is the speed of the ball ----
 
 double plate_velocity(double omega, double phase, double t) {
-    return speed * std::cos(omega * t + phase);
+    return kSpeed * std::cos(omega * t + phase);
 }
 
 // Formula for the ball's velocity after the impact: y'' = -W^2 (y - a sin(wt + p)) + constant, until the ball
 // no longer overlaps the plate.
 double rebound_by_theory(double natural, double omega, double phase) {
-    const double swing = speed / omega * natural * natural / (natural * natural - omega * omega);
-    const double start = speed / omega * std::sin(phase);  // the plate's place at t = 0, which is subtracted
+    const double swing = kSpeed / omega * natural * natural / (natural * natural - omega * omega);
+    const double start = kSpeed / omega * std::sin(phase);  // the plate's place at t = 0, which is subtracted
     const double a = start - swing * std::sin(phase);
-    const double b = (-speed - swing * omega * std::cos(phase)) / natural;
+    const double b = (-kSpeed - swing * omega * std::cos(phase)) / natural;
     const auto ball = [&](double t) {
         return a * std::cos(natural * t) + b * std::sin(natural * t) + swing * std::sin(omega * t + phase);
     };
-    const auto apart = [&](double t) { return ball(t) - speed / omega * std::sin(omega * t + phase); };
+    const auto apart = [&](double t) { return ball(t) - kSpeed / omega * std::sin(omega * t + phase); };
     double t = 1e-3 / natural;
     while (apart(t) < 0 && t < 100 / natural) t += 1e-3 / natural;
     return natural * (b * std::cos(natural * t) - a * std::sin(natural * t)) +
@@ -274,13 +274,13 @@ double rebound_measured(double natural, double omega, double phase) {
     Drive drive;
     drive.present = true;
     drive.frequency = 1 / period;
-    drive.amplitude = speed / omega;
+    drive.amplitude = kSpeed / omega;
     drive.phase = world.plan.clock.initial_phase;
     drive.ramp = 0;
     world.add_floor();
     world.around.faces[0].body.driven = true;
     world.around.motion = WallMotion(drive, world.plan.clock);
-    world.add(Vec3(0, 0, bench_radius), Vec3(0, 0, -speed));
+    world.add(Vec3(0, 0, bench_radius), Vec3(0, 0, -kSpeed));
     world.start();
     bool touched = false;
     while (world.plan.clock.time(world.step) < 100 / natural) {
@@ -303,12 +303,12 @@ Finding drive_near_contact(bool quick) {
         CurvePoint point{share, 0, 0};
         for (int k = 0; k < phases; ++k) {
             const double phase = 2 * pi * (k + 0.5) / phases, plate = plate_velocity(omega, phase, 0);
-            const double closing = speed + plate, rigid = speed + 2 * plate;
-            if (closing < 0.2 * speed) continue;  // the ball would hardly hit the plate
+            const double closing = kSpeed + plate, rigid = kSpeed + 2 * plate;
+            if (closing < 0.2 * kSpeed) continue;  // the ball would hardly hit the plate
             point.value =
-                std::max(point.value, std::abs(rebound_measured(natural, omega, phase) - rigid) / speed);
+                std::max(point.value, std::abs(rebound_measured(natural, omega, phase) - rigid) / kSpeed);
             point.theory =
-                std::max(point.theory, std::abs(rebound_by_theory(natural, omega, phase) - rigid) / speed);
+                std::max(point.theory, std::abs(rebound_by_theory(natural, omega, phase) - rigid) / kSpeed);
         }
         return point;
     };

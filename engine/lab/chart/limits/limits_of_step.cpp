@@ -17,7 +17,7 @@ namespace grainreel {
 
 namespace {
 
-constexpr double overlap = 1e-3 * bench_radius;
+constexpr double kOverlap = 1e-3 * bench_radius;
 
 // sqrt(m / K) in s, the unit of all steps here.
 double unit() {
@@ -41,7 +41,7 @@ struct Disturbance {
 // over all steps.
 double growth_of(SmallWorld& world, const Disturbance& disturbance) {
     Random random(1, Stream::centres);
-    const double speed = 1e-9 * overlap / unit();
+    const double speed = 1e-9 * kOverlap / unit();
     for (Motion& motion : world.grains.motion)
         for (int axis = 0; axis < 3; ++axis)
             motion.velocity[axis] = disturbance.along[axis] * random.between(-speed, speed);
@@ -89,14 +89,14 @@ std::unique_ptr<SmallWorld> column(int count, double plate_stiffness, double ste
     auto whole = std::make_unique<SmallWorld>(spring(1, 0, 0), step, integrator);
     SmallWorld& world = *whole;
     world.plan.wall[0].loading_stiffness = world.plan.wall[0].unloading_stiffness = plate_stiffness;
-    const double at_plate = overlap * bench_stiffness / plate_stiffness;
+    const double at_plate = kOverlap * bench_stiffness / plate_stiffness;
     double z = bench_radius - at_plate;
     world.add_floor();
     for (int k = 0; k < count; ++k) {
         world.add(Vec3(0, 0, z));
-        z += 2 * bench_radius - overlap;
+        z += 2 * bench_radius - kOverlap;
     }
-    world.add_plane(Vec3(0, 0, z - bench_radius + overlap - at_plate), Vec3(0, 0, -1));
+    world.add_plane(Vec3(0, 0, z - bench_radius + kOverlap - at_plate), Vec3(0, 0, -1));
     world.start();
     return whole;
 }
@@ -130,7 +130,7 @@ Finding unloading_limit(bool) {
         SmallWorld& world = *whole;
         world.plan.grain = {spring(e, 0, 0)};
         world.start();  // now the contact has had the overlap `overlap`
-        const double back = 0.5 * e * e * overlap, less = 0.5 * overlap / plate;  // halve the force
+        const double back = 0.5 * e * e * kOverlap, less = 0.5 * kOverlap / plate;  // halve the force
         const std::size_t low = world.at(0), high = world.at(1);
         world.grains.place[high].position.z() += back;
         for (Face& face : world.around.faces) face.point.z() -= face.normal.z() * less;
@@ -147,9 +147,9 @@ Finding sideways_limit(bool) {
     const auto build = [](double step) {
         auto whole = std::make_unique<SmallWorld>(spring(1, 1e6, ratio), step);
         SmallWorld& world = *whole;
-        world.around.gravity = {0, 0, -bench_stiffness * overlap / bench_mass()};
+        world.around.gravity = {0, 0, -bench_stiffness * kOverlap / bench_mass()};
         world.add_floor();
-        world.add(Vec3(0, 0, bench_radius - overlap));
+        world.add(Vec3(0, 0, bench_radius - kOverlap));
         world.start();
         return whole;
     };
@@ -161,8 +161,8 @@ Finding sideways_limit(bool) {
 std::unique_ptr<SmallWorld> block(int planes, const PairPlan& pair, double step) {
     auto whole = std::make_unique<SmallWorld>(pair, step);
     SmallWorld& world = *whole;
-    const double half_edge = (2 * bench_radius - overlap) / std::sqrt(2.0);
-    const double middle = 0.5 * (planes - 1), reach = middle * half_edge + bench_radius - 2 * overlap;
+    const double half_edge = (2 * bench_radius - kOverlap) / std::sqrt(2.0);
+    const double middle = 0.5 * (planes - 1), reach = middle * half_edge + bench_radius - 2 * kOverlap;
     for (int x = 0; x < planes; ++x)
         for (int y = 0; y < planes; ++y)
             for (int z = 0; z < planes; ++z)

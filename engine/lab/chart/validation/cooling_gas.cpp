@@ -21,7 +21,7 @@ PairPlan smooth_pair(const CoolingGas& gas, double restitution) {
 }
 
 // A plan with 14 steps a contact and elastic walls.
-Plan plan_of(const CoolingGas& gas) {
+Plan gas_plan(const CoolingGas& gas) {
     Plan plan;
     plan.grain = {smooth_pair(gas, gas.restitution)};
     plan.wall = {smooth_pair(gas, 1)};
@@ -52,7 +52,7 @@ std::vector<double> cool(const CoolingGas& setting, const std::vector<double>& t
     cube.side = setting.side;
     cube.solid_fraction = setting.solid_fraction;
     cube.seed = setting.seed;
-    Gas gas(plan_of(setting), cube);
+    Gas gas(gas_plan(setting), cube);
     constexpr double mixed = 0.1;  // s, after which the lattice has become a gas
     gas.run_to(mixed);
     const double start = gas.temperature(), tau = haff_time(setting, gas);
@@ -77,11 +77,11 @@ std::vector<double> times(bool quick) {
     return {0.25, 0.5, 0.75, 1, 1.5, 2, 3, 4, 5};
 }
 const std::vector<double> stiffnesses = {1e4, 1.6e5};  // N/m
-int seeds(bool quick) {
+int gas_seeds(bool quick) {
     return quick ? 1 : 5;
 }
 
-void summarise(const ChartRequest& request, const ResultTable& table) {
+void summarise_gases(const ChartRequest& request, const ResultTable& table) {
     std::string text = "stiffness_N_m,tau,temperature,error,haff,difference_percent\n";
     for (const double stiffness : stiffnesses) {
         for (const double time : times(request.quick)) {
@@ -97,10 +97,10 @@ void summarise(const ChartRequest& request, const ResultTable& table) {
     replace_file(request.folder / "haff.csv", text);
 }
 
-bool run(const ChartRequest& request, ChartWork& work) {
+bool run_gases(const ChartRequest& request, ChartWork& work) {
     ResultTable table(request.folder / "gas.csv", "stiffness_N_m,seed,tau,temperature", 3);
     for (const double stiffness : stiffnesses) {
-        for (int seed = 1; seed <= seeds(request.quick); ++seed) {
+        for (int seed = 1; seed <= gas_seeds(request.quick); ++seed) {
             if (!work.next(fmt::format("cooling gas, {:g} N/m, seed {}", stiffness, seed))) return false;
             const std::vector<double> at = times(request.quick);
             if (table.has({number(stiffness), number(seed), number(at.back())})) continue;
@@ -112,13 +112,13 @@ bool run(const ChartRequest& request, ChartWork& work) {
                 table.add({number(stiffness), number(seed), number(at[k]), number(is[k])});
         }
     }
-    summarise(request, table);
+    summarise_gases(request, table);
     return true;
 }
 
 }  // namespace
 
 const ValidationPart gas_part = {
-    [](bool quick) { return stiffnesses.size() * static_cast<std::size_t>(seeds(quick)); }, run};
+    [](bool quick) { return stiffnesses.size() * static_cast<std::size_t>(gas_seeds(quick)); }, run_gases};
 
 }  // namespace grainreel

@@ -120,7 +120,7 @@ void binary(const ChartRequest& request) {
     replace_file(request.folder / "binary.csv", table);
 }
 
-bool run(const ChartRequest& request, ChartWork& work) {
+bool run_impacts(const ChartRequest& request, ChartWork& work) {
     if (!work.next("oblique impacts of alumina on glass")) return false;
     alumina(request);
     if (!work.next("binary impacts of glass and acetate")) return false;
@@ -130,14 +130,14 @@ bool run(const ChartRequest& request, ChartWork& work) {
 
 }  // namespace
 
-const ValidationPart impact_part = {[](bool) { return std::size_t{2}; }, run};
+const ValidationPart impact_part = {[](bool) { return std::size_t{2}; }, run_impacts};
 
 namespace {
 
 using std::numbers::pi;
 
 using kharaz::radius, kharaz::density, kharaz::speed;
-constexpr double depth = 0.001 * radius;  // m, largest overlap at normal incidence
+constexpr double kDepth = 0.001 * radius;  // m, largest overlap at normal incidence
 constexpr int steps_per_contact = 200;
 
 PairPlan pair_of(const ImpactLaw& law, double effective_mass, double effective_radius) {
@@ -146,13 +146,13 @@ PairPlan pair_of(const ImpactLaw& law, double effective_mass, double effective_r
     pair.model = {law.normal, law.tangential, false, law.precision};
     pair.restitution = e;
     pair.friction = law.friction;
-    pair.loading_stiffness = effective_mass * std::pow(speed / depth, 2);
+    pair.loading_stiffness = effective_mass * std::pow(speed / kDepth, 2);
     pair.unloading_stiffness = pair.loading_stiffness / (e * e);
     pair.tangential_ratio = law.stiffness_ratio;
     pair.tangential_stiffness = law.stiffness_ratio * pair.loading_stiffness;
     pair.gamma = 1.0 / 3;
     if (law.normal == NormalForce::hertz) {  // depth = (5 m v^2 / 4k)^(2/5), k = 4/3 E* sqrt R
-        const double k = 1.25 * effective_mass * speed * speed / std::pow(depth, 2.5);
+        const double k = 1.25 * effective_mass * speed * speed / std::pow(kDepth, 2.5);
         pair.modulus = 0.75 * k / std::sqrt(effective_radius);
         pair.hertz_damping = hertz_damping(e, false);
     }
@@ -160,8 +160,8 @@ PairPlan pair_of(const ImpactLaw& law, double effective_mass, double effective_r
 }
 
 double contact_time(const ImpactLaw& law) {
-    return law.normal == NormalForce::hertz ? 2.943 * depth / speed
-                                            : pi / 2 * (1 + law.restitution) * depth / speed;
+    return law.normal == NormalForce::hertz ? 2.943 * kDepth / speed
+                                            : pi / 2 * (1 + law.restitution) * kDepth / speed;
 }
 
 }  // namespace

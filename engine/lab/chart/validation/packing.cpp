@@ -14,10 +14,10 @@ namespace grainreel {
 
 namespace {
 
-constexpr double diameter = 0.004, density = 2500, stiffness = 1e4;  // m, kg/m3, N/m
+constexpr double kDiameter = 0.004, kDensity = 2500, kStiffness = 1e4;  // m, kg/m3, N/m
 
 double natural_frequency() {  // 1/s
-    return std::sqrt(stiffness / (density * sphere_volume(diameter / 2)));
+    return std::sqrt(kStiffness / (kDensity * sphere_volume(kDiameter / 2)));
 }
 
 // The grains, first with random centres, between walls at +- edge/2 in y and z.
@@ -28,31 +28,32 @@ struct Crowd {
 
     explicit Crowd(const JammedPacking& packing)
         : setting(packing),
-          world(latching_pair(stiffness, 1, packing.friction, packing.precision), 0.1 / natural_frequency()) {
-        world.plan.wall = {latching_pair(stiffness, 1, 0, packing.precision)};
-        edge = std::cbrt(setting.grains * sphere_volume(diameter / 2) / setting.solid_fraction);
-        const double room = edge / 2 - diameter / 2;
+          world(latching_pair(kStiffness, 1, packing.friction, packing.precision),
+                0.1 / natural_frequency()) {
+        world.plan.wall = {latching_pair(kStiffness, 1, 0, packing.precision)};
+        edge = std::cbrt(setting.grains * sphere_volume(kDiameter / 2) / setting.solid_fraction);
+        const double room = edge / 2 - kDiameter / 2;
         Random centres(setting.seed, Stream::centres);
         for (int k = 0; k < setting.grains; ++k) {
             const double x = centres.between(-edge / 2, edge / 2), y = centres.between(-room, room);
-            world.add(Vec3(x, y, centres.between(-room, room)), Vec3::Zero(), {diameter / 2, density});
+            world.add(Vec3(x, y, centres.between(-room, room)), Vec3::Zero(), {kDiameter / 2, kDensity});
         }
         for (const Vec3& normal : {Vec3::UnitY().eval(), Vec3::UnitZ().eval()}) {
             world.add_plane(-edge / 2 * normal, normal);
             world.add_plane(edge / 2 * normal, -normal);
         }
         world.around.period = edge;
-        world.around.skin = 0.3 * diameter;
+        world.around.skin = 0.3 * kDiameter;
         world.start();
     }
     // Multiplies all radii by `factor`. Neighbour lists stay valid when grains shrink, so contacts keep their
     // histories.
     void shrink(double factor) {
         for (std::size_t i = 0; i < world.grains.size(); ++i)
-            world.grains.set_radius(i, factor * world.grains.place[i].radius, density);
+            world.grains.set_radius(i, factor * world.grains.place[i].radius, kDensity);
     }
     Vec3 inner() const {  // m, half the extents of the part that is measured
-        const double half = edge / 2 - setting.margin * diameter;
+        const double half = edge / 2 - setting.margin * kDiameter;
         return {edge / 2, half, half};
     }
 };
@@ -81,16 +82,16 @@ void rest(Crowd& crowd, double drag, double balance, int most_steps) {
     }
 }
 
-struct Touching {
+struct TouchingPair {
     std::int32_t first, second;  // second below 0: a wall
 };
 
 // Rattlers: grains with fewer than `needed` contacts, where contacts with other rattlers do not count.
-std::vector<bool> rattlers(const std::vector<Touching>& contacts, std::size_t grains, int needed) {
+std::vector<bool> rattlers(const std::vector<TouchingPair>& contacts, std::size_t grains, int needed) {
     std::vector<bool> loose(grains, false);
     for (bool found = true; found;) {
         std::vector<int> count(grains, 0);
-        for (const Touching& c : contacts) {
+        for (const TouchingPair& c : contacts) {
             if (loose[c.first] || (c.second >= 0 && loose[c.second])) continue;
             ++count[c.first];
             if (c.second >= 0) ++count[c.second];
@@ -109,13 +110,13 @@ PackingState state_of(const Crowd& crowd) {
     const Vec3 inner = crowd.inner();
     const double volume = 8 * inner.prod();
     PackingState state;
-    std::vector<Touching> contacts;
+    std::vector<TouchingPair> contacts;
     crowd.world.loop->visit_contacts(crowd.world.step, [&](const ContactView& c) {
         if (c.normal_force <= 0) return;
         contacts.push_back({c.first, c.second});
         if (c.second < 0 || !lies_in(c.point, inner)) return;
         const double apart = grains.place[c.first].radius + grains.place[c.second].radius - c.overlap;
-        state.pressure += c.normal_force * apart / (3 * volume) * diameter / stiffness;
+        state.pressure += c.normal_force * apart / (3 * volume) * kDiameter / kStiffness;
     });
     // Without friction it takes four contacts to hold a grain (one more than dimensions), with friction two.
     const std::vector<bool> loose = rattlers(contacts, grains.size(), crowd.setting.friction > 0 ? 2 : 4);
@@ -127,7 +128,7 @@ PackingState state_of(const Crowd& crowd) {
         inside += 1;
         held += !loose[i];
     }
-    for (const Touching& c : contacts) {
+    for (const TouchingPair& c : contacts) {
         if (c.second < 0 || loose[c.first] || loose[c.second]) continue;
         for (const std::int32_t i : {c.first, c.second}) ends += lies_in(grains.place[i].position, inner);
     }
@@ -220,8 +221,8 @@ double volume_within(const Vec3& centre, double radius, const Vec3& low, const V
 
 namespace {
 
-const std::vector<double> frictions = {0, 0.1, 0.5, 10};
-int seeds(bool quick) {
+const std::vector<double> kFrictions = {0, 0.1, 0.5, 10};
+int packing_seeds(bool quick) {
     return quick ? 1 : 3;
 }
 
@@ -251,11 +252,11 @@ std::vector<PackingState> states_in(const ResultTable& table, double friction, i
     return states;
 }
 
-void summarise(const ChartRequest& request, const ResultTable& table) {
+void summarise_packings(const ChartRequest& request, const ResultTable& table) {
     std::string text = "friction,seeds,solid_fraction,error,contacts,error,rise,error\n";
-    for (const double friction : frictions) {
+    for (const double friction : kFrictions) {
         std::vector<double> solid, contacts, rise;
-        for (int seed = 1; seed <= seeds(request.quick); ++seed) {
+        for (int seed = 1; seed <= packing_seeds(request.quick); ++seed) {
             const JammingPoint point = jamming_point(states_in(table, friction, seed));
             solid.push_back(point.solid_fraction), contacts.push_back(point.contacts);
             rise.push_back(point.rise);
@@ -267,11 +268,11 @@ void summarise(const ChartRequest& request, const ResultTable& table) {
     replace_file(request.folder / "jamming.csv", text);
 }
 
-bool run(const ChartRequest& request, ChartWork& work) {
+bool run_packings(const ChartRequest& request, ChartWork& work) {
     ResultTable table(request.folder / "packing.csv",
                       "friction,seed,state,pressure_d_K,solid_fraction,contacts,rattlers,unbalanced", 3);
-    for (const double friction : frictions) {
-        for (int seed = 1; seed <= seeds(request.quick); ++seed) {
+    for (const double friction : kFrictions) {
+        for (int seed = 1; seed <= packing_seeds(request.quick); ++seed) {
             if (!work.next(fmt::format("packing, friction {}, seed {}", friction, seed))) return false;
             if (table.has({number(friction), number(seed), "end"})) continue;
             const auto states =
@@ -287,13 +288,14 @@ bool run(const ChartRequest& request, ChartWork& work) {
             table.add({number(friction), number(seed), "end", "", "", "", "", ""});
         }
     }
-    summarise(request, table);
+    summarise_packings(request, table);
     return true;
 }
 
 }  // namespace
 
 const ValidationPart packing_part = {
-    [](bool quick) { return frictions.size() * static_cast<std::size_t>(seeds(quick)); }, run};
+    [](bool quick) { return kFrictions.size() * static_cast<std::size_t>(packing_seeds(quick)); },
+    run_packings};
 
 }  // namespace grainreel

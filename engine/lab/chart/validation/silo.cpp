@@ -17,27 +17,26 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double diameter = 0.004, radius = diameter / 2, density = bench_density;  // m, m, kg/m3
-constexpr double gravity = 9.81, stiffness = 2e3;                                   // m/s2, N/m
-constexpr double loose = 0.5, expected = 0.58;                                      // solid fractions
-// How the floor sinks: its speed divided by sqrt(g d), and its way (m).
-constexpr double sinking = 0.05, way = 0.5 * diameter;
+constexpr double kDiameter = 0.004, kRadius = kDiameter / 2, kDensity = bench_density;  // m, m, kg/m3
+constexpr double kGravity = 9.81, kStiffness = 2e3;                                     // m/s2, N/m
+constexpr double kLoose = 0.5, kExpected = 0.58;                                        // solid fractions
+constexpr double kSinking = 0.05, kWay = 0.5 * kDiameter;  // of the floor: speed in sqrt(g d), and m
 
 double mass() {
-    return density * sphere_volume(radius);
+    return kDensity * sphere_volume(kRadius);
 }
 
 double step_length() {
-    return 0.1 * std::sqrt(mass() / stiffness);
+    return 0.1 * std::sqrt(mass() / kStiffness);
 }
 
 struct Cylinder {
     double bore;  // m
 
-    explicit Cylinder(const SiloColumn& column) : bore(column.bore * diameter) {}
+    explicit Cylinder(const SiloColumn& column) : bore(column.bore * kDiameter) {}
     double area() const { return pi / 4 * bore * bore; }
     int grains(double height) const {
-        return static_cast<int>(expected * area() * height / sphere_volume(radius));
+        return static_cast<int>(kExpected * area() * height / sphere_volume(kRadius));
     }
     // Adds the floor, then the wall. So the floor has number 0 and the wall 1.
     void surround(SmallWorld& world) const {
@@ -46,24 +45,24 @@ struct Cylinder {
         wall.kind = Face::Kind::cylinder;
         wall.radius = bore / 2;
         world.around.faces.push_back(wall);
-        world.around.skin = 0.3 * diameter;
+        world.around.skin = 0.3 * kDiameter;
     }
 };
 
 // A loose crowd: grains at random centres, pushed apart without friction or gravity under a lid.
 Grains crowd(const Cylinder& cylinder, int grains, std::uint64_t seed) {
-    SmallWorld world(latching_pair(stiffness, 1), step_length());
+    SmallWorld world(latching_pair(kStiffness, 1), step_length());
     cylinder.surround(world);
-    const double height = grains * sphere_volume(radius) / (loose * cylinder.area());
+    const double height = grains * sphere_volume(kRadius) / (kLoose * cylinder.area());
     world.add_plane(Vec3(0, 0, height), Vec3(0, 0, -1));
     Random random(seed, Stream::centres);
     for (int k = 0; k < grains; ++k) {
-        const double out = (cylinder.bore / 2 - radius) * std::sqrt(random.uniform());
-        const double angle = random.between(0, 2 * pi), z = random.between(radius, height - radius);
-        world.add(Vec3(out * std::cos(angle), out * std::sin(angle), z), Vec3::Zero(), {radius, density});
+        const double out = (cylinder.bore / 2 - kRadius) * std::sqrt(random.uniform());
+        const double angle = random.between(0, 2 * pi), z = random.between(kRadius, height - kRadius);
+        world.add(Vec3(out * std::cos(angle), out * std::sin(angle), z), Vec3::Zero(), {kRadius, kDensity});
     }
     world.start();
-    const double drag = 0.5 * std::sqrt(stiffness / mass());
+    const double drag = 0.5 * std::sqrt(kStiffness / mass());
     for (int look = 0; look < 100; ++look) {
         world.run(200, drag);
         if (summarise_contacts(*world.loop, world.step).largest_overlap < 1e-3) break;
@@ -76,7 +75,7 @@ Grains crowd(const Cylinder& cylinder, int grains, std::uint64_t seed) {
 void settle(SmallWorld& world) {
     constexpr double drag = 20;  // 1/s
     constexpr std::int64_t steps_per_look = 1000, most = 100 * steps_per_look;
-    const double rest = 1e-6 * mass() * gravity * diameter * static_cast<double>(world.grains.size());
+    const double rest = 1e-6 * mass() * kGravity * kDiameter * static_cast<double>(world.grains.size());
     for (world.step = -most; world.step < 0;) {
         world.run(steps_per_look, drag);
         if (kinetic_energy(world.grains).translation < rest) break;
@@ -97,7 +96,7 @@ struct Sums {
         const double level = world.around.faces[0].displacement(world.around.motion.at(world.step)).z();
         double z = 0;
         for (const Place& p : world.grains.place) z += p.position.z() - level;
-        moment += mass() * gravity * z;
+        moment += mass() * kGravity * z;
         world.loop->visit_contacts(world.step, [&](const ContactView& c) {
             if (c.second == -1) floor += c.normal_force;
             if (c.second != -2) return;
@@ -115,27 +114,27 @@ struct Sums {
 SiloLoad load_of(const SiloColumn& column) {
     const Cylinder cylinder(column);
     const int grains = cylinder.grains(column.aspect * cylinder.bore);
-    SmallWorld world(latching_pair(stiffness, 0.7, column.friction, column.precision), step_length());
-    world.plan.wall = {latching_pair(stiffness, 0.7, column.wall_friction, column.precision)};
+    SmallWorld world(latching_pair(kStiffness, 0.7, column.friction, column.precision), step_length());
+    world.plan.wall = {latching_pair(kStiffness, 0.7, column.wall_friction, column.precision)};
     cylinder.surround(world);
     world.grains = crowd(cylinder, grains, column.seed);
     for (Motion& m : world.grains.motion) m.velocity.setZero();
-    const double speed = sinking * std::sqrt(gravity * diameter);
+    const double speed = kSinking * std::sqrt(kGravity * kDiameter);
     world.around.faces[0].body.velocity = Vec3(0, 0, -speed);
     world.around.motion = WallMotion(Drive(), world.plan.clock);
-    world.around.gravity = Vec3(0, 0, -gravity);
+    world.around.gravity = Vec3(0, 0, -kGravity);
     world.start();
     settle(world);
     Sums resting, sums;
     resting.add(world);
-    const auto steps = static_cast<std::int64_t>(way / speed / world.plan.clock.step);
+    const auto steps = static_cast<std::int64_t>(kWay / speed / world.plan.clock.step);
     while (world.step < steps) {
         world.run(50);
         if (world.step > steps / 2) sums.add(world);
     }
-    const double weight = grains * mass() * gravity, height = sums.height / sums.samples;
+    const double weight = grains * mass() * kGravity, height = sums.height / sums.samples;
     SiloLoad load;
-    load.solid_fraction = grains * sphere_volume(radius) / (cylinder.area() * height);
+    load.solid_fraction = grains * sphere_volume(kRadius) / (cylinder.area() * height);
     load.filling = height / cylinder.bore;
     load.apparent = load.filling * sums.floor / sums.samples / weight;
     load.resting = load.filling * resting.floor / weight;
@@ -182,12 +181,12 @@ std::vector<double> aspects(bool quick) {
     return {0.25, 0.5, 1, 1.5, 2, 3, 4};
 }
 
-struct Loaded {
+struct WallLoad {
     double aspect;
     SiloLoad load;
 };
-std::vector<Loaded> loads_in(const ResultTable& table, double friction) {
-    std::vector<Loaded> loads;
+std::vector<WallLoad> loads_in(const ResultTable& table, double friction) {
+    std::vector<WallLoad> loads;
     for (const auto& row : table.rows()) {
         const auto value = [&](std::size_t k) { return std::stod(row.at(k)); };
         if (row.at(0) != number(friction)) continue;
@@ -197,10 +196,10 @@ std::vector<Loaded> loads_in(const ResultTable& table, double friction) {
 }
 
 // One row for a wall: the K that fits, and the K that follows from the forces.
-std::string fit_row(double friction, const std::vector<Loaded>& loaded) {
+std::string fit_row(double friction, const std::vector<WallLoad>& loaded) {
     std::vector<SiloLoad> loads;
     std::vector<double> ratio, mobilised, product;
-    for (const Loaded& l : loaded) {
+    for (const WallLoad& l : loaded) {
         loads.push_back(l.load);
         ratio.push_back(l.load.stress_ratio), mobilised.push_back(l.load.mobilised);
         product.push_back(l.load.stress_ratio * l.load.mobilised);
@@ -213,14 +212,14 @@ std::string fit_row(double friction, const std::vector<Loaded>& loaded) {
 }
 
 // Rows of one wall, one for each height: the mean over the seeds beside the law with that K.
-std::string height_rows(double friction, const std::vector<Loaded>& loaded, bool quick) {
+std::string height_rows(double friction, const std::vector<WallLoad>& loaded, bool quick) {
     std::vector<SiloLoad> all;
-    for (const Loaded& l : loaded) all.push_back(l.load);
+    for (const WallLoad& l : loaded) all.push_back(l.load);
     const double product = fit_janssen(all).friction_times_ratio;
     std::string rows;
     for (const double aspect : aspects(quick)) {
         std::vector<double> filling, ours, resting;
-        for (const Loaded& l : loaded) {
+        for (const WallLoad& l : loaded) {
             if (l.aspect != aspect) continue;
             filling.push_back(l.load.filling), ours.push_back(l.load.apparent);
             resting.push_back(l.load.resting);
@@ -233,12 +232,12 @@ std::string height_rows(double friction, const std::vector<Loaded>& loaded, bool
     return rows;
 }
 
-void summarise(const ChartRequest& request, const ResultTable& table) {
+void summarise_silos(const ChartRequest& request, const ResultTable& table) {
     std::string fits =
         "wall_friction,K_fitted,rms_over_saturation,K_from_forces,error,mobilised,error,product,error\n";
     std::string heights = "wall_friction,filling,ours,error,janssen,difference_percent,resting\n";
     for (const Wall& wall : walls(request.quick)) {
-        const std::vector<Loaded> loads = loads_in(table, wall.friction);
+        const std::vector<WallLoad> loads = loads_in(table, wall.friction);
         fits += fit_row(wall.friction, loads);
         heights += height_rows(wall.friction, loads, request.quick);
     }
@@ -246,7 +245,7 @@ void summarise(const ChartRequest& request, const ResultTable& table) {
     replace_file(request.folder / "janssen.csv", heights);
 }
 
-bool run(const ChartRequest& request, ChartWork& work) {
+bool run_silos(const ChartRequest& request, ChartWork& work) {
     ResultTable table(
         request.folder / "silo.csv",
         "wall_friction,aspect,seed,filling,apparent,solid_fraction,stress_ratio,mobilised,resting", 3);
@@ -265,7 +264,7 @@ bool run(const ChartRequest& request, ChartWork& work) {
             }
         }
     }
-    summarise(request, table);
+    summarise_silos(request, table);
     return true;
 }
 
@@ -277,6 +276,6 @@ std::size_t pieces(bool quick) {
 
 }  // namespace
 
-const ValidationPart silo_part = {pieces, run};
+const ValidationPart silo_part = {pieces, run_silos};
 
 }  // namespace grainreel
