@@ -132,11 +132,4 @@ struct CarriedScene {
     bool rides() const { return frame == RunFrame::container && !drive.empty(); }
 };
 
-// Dumps at equal distances.
-struct DumpStretch {
-    std::int64_t from = 0, every = 0, count = 0;  // dumps at from + every, ..., from + count * every
-};
-// Divides rising steps (at least one) into such stretches. The first step is the start of the first stretch.
-std::vector<DumpStretch> dump_stretches(const std::vector<std::int64_t>& steps);
-
 }  // namespace grainreel

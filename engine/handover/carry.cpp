@@ -68,18 +68,6 @@ void throw_refusals(const CarriedScene& carried, const std::function<void(const 
     throw UserError(refusal_text(carried.refusals.back()));
 }
 
-std::vector<DumpStretch> dump_stretches(const std::vector<std::int64_t>& steps) {
-    std::vector<DumpStretch> all;
-    for (std::size_t i = 1; i < steps.size(); ++i) {
-        const std::int64_t every = steps[i] - steps[i - 1];
-        if (!all.empty() && all.back().every == every)
-            ++all.back().count;
-        else
-            all.push_back({steps[i - 1], every, 1});
-    }
-    return all;
-}
-
 namespace {
 
 constexpr std::int64_t most_dumps = 10'000'000;

@@ -31,7 +31,7 @@ std::vector<double> contact_shares(const Scene& scene) {
     for (const Species& s : scene.species)
         shares.push_back(static_cast<double>(s.all()) * s.diameter.mean * s.diameter.mean);
     const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
-    for (double& share : shares) share = all > 0 ? share / all : 0;
+    for (double& one : shares) one = all > 0 ? one / all : 0;
     return shares;
 }
 
@@ -48,10 +48,10 @@ std::vector<ContactKind> contact_kinds(const Scene& scene, const Plan& plan) {
         for (std::size_t b = a; b < scene.species.size(); ++b) {
             const Species& second = scene.species[b];
             if (second.all() == 0 || (a == b && first.all() == 1)) continue;
-            const double share = shares[a] * shares[b] * (a == b ? 1 : 2);
+            const double part = shares[a] * shares[b] * (a == b ? 1 : 2);
             kinds.push_back({fmt::format("\"{}\" and \"{}\"", first.name, second.name), &plan.between(a, b),
-                             first, second, false, share});
-            of_grains += share;
+                             first, second, false, part});
+            of_grains += part;
         }
         const std::string name = fmt::format("\"{}\" and ", first.name);
         if (walls) kinds.push_back({name + "a wall", &plan.wall[a], first, std::nullopt, true, shares[a]});

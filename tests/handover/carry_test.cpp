@@ -132,14 +132,6 @@ TEST(Carry, DumpsAtThePictures) {
     EXPECT_THAT(carried.dumps, testing::ElementsAre(0, 7, 100, carried.plan.steps));
 }
 
-TEST(DumpStretches, JoinEvenSteps) {
-    const std::vector<DumpStretch> all = dump_stretches({0, 10, 20, 30, 35, 40});
-    ASSERT_EQ(all.size(), 2u);
-    EXPECT_EQ(all[0].count, 3);
-    EXPECT_EQ(all[1].from, 30);
-    EXPECT_EQ(all[1].every, 5);
-}
-
 // The corners of the first feed's region in the deck of LIGGGHTS.
 std::array<double, 6> region_of_feed(const std::string& text) {
     CarryRequest request;
