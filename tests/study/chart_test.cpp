@@ -26,14 +26,14 @@ using testing::Not;
 using State = MemberResult::State;
 
 TEST(StudyChartLabels, HaveTheUnitUnlessTheyNameIt) {
-    EXPECT_EQ(with_unit("kinetic energy, mean", "J"), "kinetic energy, mean (J)");
-    EXPECT_EQ(with_unit("share of big grains", ""), "share of big grains");
-    EXPECT_EQ(with_unit("flow along the wall, m a period", "m"), "flow along the wall, m a period");
-    EXPECT_EQ(with_unit("rate of the drum, rad/s", "rad/s"), "rate of the drum, rad/s");
-    EXPECT_EQ(with_unit("angle (degrees)", "degree"), "angle (degrees)");
-    EXPECT_EQ(with_unit("time to empty", "m"), "time to empty (m)");
-    EXPECT_EQ(with_unit("mass", "s"), "mass (s)");
-    EXPECT_EQ(with_unit("s", "s"), "s");
+    EXPECT_EQ(axis_title("kinetic energy, mean", "J"), "kinetic energy, mean (J)");
+    EXPECT_EQ(axis_title("share of big grains", ""), "share of big grains");
+    EXPECT_EQ(axis_title("flow along the wall, m a period", "m"), "flow along the wall, m a period");
+    EXPECT_EQ(axis_title("rate of the drum, rad/s", "rad/s"), "rate of the drum, rad/s");
+    EXPECT_EQ(axis_title("angle (degrees)", "degree"), "angle (degrees)");
+    EXPECT_EQ(axis_title("time to empty", "m"), "time to empty (m)");
+    EXPECT_EQ(axis_title("mass", "s"), "mass (s)");
+    EXPECT_EQ(axis_title("s", "s"), "s");
 }
 
 struct Made {

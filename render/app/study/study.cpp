@@ -57,7 +57,7 @@ TimedRows finite_rows(const TimedRows& all) {
 
 }  // namespace
 
-std::string with_unit(const std::string& label, const std::string& unit) {
+std::string axis_title(const std::string& label, const std::string& unit) {
     if (unit.empty()) return label;
     const auto is_apart = [&](std::size_t at) {
         return at >= label.size() || std::string_view(" ,;:()[]").find(label[at]) != std::string_view::npos;

@@ -20,7 +20,7 @@ using Seeds = std::vector<std::uint64_t>;
 
 // What an axis is called: "drive frequency (Hz)". The unit is left out where there is none, and where the
 // label names it by itself: "rate of the drum, rad/s".
-std::string with_unit(const std::string& label, const std::string& unit);
+std::string axis_title(const std::string& label, const std::string& unit);
 
 // One axis of the grid: a key of the scene and the values that it takes. The variants of a study are an axis
 // too, the first one: its key is `variant_axis`, and its values are their names.
@@ -42,7 +42,7 @@ struct Variation {
 
     // The assignments to the scene for the value with that number.
     Assignments assignments(std::size_t number) const;
-    std::string title() const { return with_unit(label, unit); }
+    std::string title() const { return axis_title(label, unit); }
 };
 
 // How a column of measures.csv becomes one number.
@@ -64,7 +64,7 @@ struct StudyMeasure {
     std::string unit = {};   // of the number, on charts; empty for none
     std::string place = {};  // of its column in the study file, for messages
 
-    std::string title() const { return with_unit(label, unit); }
+    std::string title() const { return axis_title(label, unit); }
 };
 
 struct StudyChart {
