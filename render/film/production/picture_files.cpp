@@ -23,11 +23,16 @@ bool poster_in_passing(std::int64_t count) {
 
 std::string flash_remedy(const Film& film) {
     const std::vector<FilmSegment> segments = segments_of(film);
-    const bool locked = std::all_of(segments.begin(), segments.end(), [](const FilmSegment& segment) {
-        return segment.kind == FilmSegment::Kind::locked;
-    });
-    return locked ? "show fewer frames a second (film.rate), or colours nearer in brightness"
-                  : "slow it down (film.segment playback) or lock it to a phase";
+    const auto locked = [](const FilmSegment& segment) { return segment.kind == FilmSegment::Kind::locked; };
+    if (std::none_of(segments.begin(), segments.end(), locked))
+        return "slow it down (film.segment playback) or lock it to a phase";
+    if (std::all_of(segments.begin(), segments.end(), locked))
+        return "show means over some periods (film.segment average = 4), fewer frames a second (film.rate), "
+               "or "
+               "colours nearer in brightness";
+    return "slow it down (film.segment playback), or show means over some periods in locked segments "
+           "(average = "
+           "4)";
 }
 
 }  // namespace
