@@ -13,6 +13,7 @@
 
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/frame.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/plan/plan.hpp"
@@ -73,8 +74,8 @@ class ReturnedRun {
     void close(RunJson& record);
 
     std::int64_t frames() const;
-    const Frame* last() const;                          // null before the first
-    static constexpr const char* kFolder = "handover";  // folder of deck and dump in the run's folder
+    const Frame* last() const;                               // null before the first
+    static constexpr const char* kFolder = kHandoverFolder;  // of deck and dump, in the run's folder
 
   private:
     struct Impl;

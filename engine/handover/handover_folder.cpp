@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/handover/decks.hpp"
 #include "engine/handover/job_end.hpp"
 #include "engine/handover/triangle_walls.hpp"
@@ -20,8 +21,6 @@ namespace grainreel {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* facts_name = "handover.toml";
 
 bool grains_leave(const CarriedScene& carried) {
     return !carried.scene.exits.empty() || (carried.scene.container.outlet && !carried.scene.container.tray);
@@ -144,16 +143,16 @@ void write_handover(const fs::path& folder, const CarriedScene& carried, const S
     make_executable(folder / "run.sh");
     replace_file(folder / "job.slurm", slurm_script(carried));
     // This file is written last, so that a folder that has it is complete.
-    replace_file(folder / facts_name, facts_text(carried, start, version));
+    replace_file(folder / kHandoverFacts, facts_text(carried, start, version));
 }
 
 bool is_handover(const fs::path& folder) {
     std::error_code ignored;
-    return fs::is_regular_file(folder / facts_name, ignored);
+    return fs::is_regular_file(folder / kHandoverFacts, ignored);
 }
 
 HandoverFacts read_handover(const fs::path& folder) {
-    const fs::path file = folder / facts_name;
+    const fs::path file = folder / kHandoverFacts;
     toml::table table;
     try {
         table = toml::parse_file(file.string());

@@ -16,6 +16,7 @@
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/film_request.hpp"
+#include "render/film/sources/recorded_run.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 
 namespace grainreel {
@@ -48,6 +49,8 @@ FollowJob::FollowJob(const FilmRequest& request, const FollowRequest& what, RunL
       plan_(make_plan(scene_)),
       returning_(free_folder(what.from)),
       holds_(scene_.film) {
+    if (const auto lack = lacking_elsewhere(scene_))
+        throw UserError(fmt::format("{}: {}", what.from.string(), *lack));
     const std::int64_t pictures = std::ssize(film_schedule(scene_, plan_.clock, plan_.steps));
     film_.check(scene_, pictures);
     film_.use_threads(drawing_threads(scene_.run.threads));

@@ -200,6 +200,35 @@ TEST_F(FollowedJob, IsInspectedBeforeItWasDrawn) {
     EXPECT_THAT(ended.out, HasSubstr("0.25095"));  // m, 0.3 - g (0.1 s)^2 / 2
 }
 
+// No advice to run the scene with another output: a dump has grains alone.
+TEST_F(FollowedJob, IsNotAskedForWhatNoDumpHas) {
+    add(0, kPictures);
+    const std::vector<std::pair<Words, std::string>> cases = {
+        {{"render", "job", "--set", "film.force_chains=true"},
+         "job: another engine computes the run, and its dumps "},
+        {{"render", "job", "--follow", "--set", "film.force_chains=true"}, "its dumps have no contacts"},
+        {{"render", "job", "--set", "film.rotation=true"}, "its dumps have no orientations"},
+        {{"render", "job", "--set", "film.wall_forces=true"}, "forces on walls are not measured there"},
+        {{"compare", "job", "job", "--set", "film.force_chains=true"}, "its dumps have no contacts"},
+        {{"inspect", "job", "--wall", "floor"},
+         "--wall: job: forces on walls and overlaps are known of runs of our"},
+        {{"inspect", "job", "--largest-overlap"}, "known of runs of our own engine alone"},
+        {{"inspect", "job", "--where", "contacts > 2"}, "its dumps have no contacts"},
+        {{"inspect", "job", "--where", "force > 2 N"}, "known of runs of our own engine alone"},
+        {{"movie", "ball.toml", "--engine", "lammps", "--set", "film.force_chains=true"},
+         "--engine lammps: another "}};
+    for (const auto& [words, part] : cases) {
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 2) << testing::PrintToString(words) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(part)) << testing::PrintToString(words);
+        EXPECT_THAT(ended.err, Not(HasSubstr("output."))) << testing::PrintToString(words);
+        EXPECT_THAT(ended.err, Not(HasSubstr("--no-replay"))) << testing::PrintToString(words);
+    }
+    const Ended between = program({"inspect", "job", "--at", "0.0512s", "--where", "z > 0 m"});
+    EXPECT_EQ(between.status, 0) << between.err;
+    EXPECT_THAT(between.out, HasSubstr("0.0512 s was not kept; this is the nearest kept moment"));
+}
+
 TEST_F(FollowedJob, IsExportedBeforeItWasDrawn) {
     add(0, 6);
     const Ended ended = program({"export", "job", "--to", "xyz", "--out", "job.xyz"});
