@@ -70,6 +70,11 @@ class ReturnedRun {
     // that does not fit the deck, and RunError for grains that were lost and a state that is not sound
     // (ReturnedHealth); no frame from there on may be taken.
     bool take_next();
+    // Whether the dump has become shorter than what was read of it, as when its job goes on from a restart
+    // file.
+    bool dump_is_shorter() const;
+    // Reads the dump from its beginning again. Moments that were taken already are passed over.
+    void read_anew();
     // Writes final.csv of the last frame, and what run.json says about the files.
     void close(RunJson& record);
 

@@ -216,8 +216,12 @@ command -v "$engine" > /dev/null || {{
 if [ "$(id -u)" = 0 ]; then  # Open MPI refuses root otherwise
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
-rm -f {status}
-{restart}mpirun -np "$ranks" "$engine" -in {deck} -log log.{key} "$@" > out.{key} 2>&1 < /dev/null &
+# The first line of {status} is "running" or an exit status, the second names the job.
+note() {{ printf '%s\njob %s\n' "$1" "$name" > {status}.part && mv -f {status}.part {status}; }}
+rm -f {status}  # of a job before
+{restart}name="$(uname -n) $$ $(date +%s) $way"
+note running
+mpirun -np "$ranks" "$engine" -in {deck} -log log.{key} "$@" > out.{key} 2>&1 < /dev/null &
 job=$!
 trap 'kill "$job" 2> /dev/null' HUP INT TERM  # the ranks end with this script
 wait "$job"
@@ -226,7 +230,7 @@ while kill -0 "$job" 2> /dev/null; do  # a signal ended the wait
     wait "$job"
     status=$?
 done
-{forced}echo "$status" > {status}  # so that whoever follows the dump knows
+{forced}note "$status"  # so that whoever follows the dump knows
 [ "$status" = 0 ] || {{ echo "run.sh: {name} ended with $status; the end of out.{key}:" >&2; tail -n 5 out.{key} >&2; }}
 exit $status
 )sh";
@@ -253,9 +257,11 @@ constexpr const char* restart_text = R"sh(if [ "$1" = --continue ]; then
         END {{ printf "%.0f", whole }}' {dump}) || exit 1
     truncate -s "$size" {dump}
     set -- -var goes_on 1 -var restart {restart}."$step"
+    way=continue
 else
     rm -f {restart}.* {end} {dump}  # of a run before
     set --
+    way=start
 fi
 )sh";
 
@@ -297,12 +303,11 @@ std::string run_script(const CarriedScene& carried) {
         fmt::format(forced_text, fmt::arg("begin", forced_begin), fmt::arg("end", forced_end),
                     fmt::arg("words", forced_words), fmt::arg("restart", restart_name(carried.engine)));
     return fmt::format(
-        run_text, fmt::arg("forced", lammps ? "" : forced), fmt::arg("title", one_line(carried.scene.title)),
-        fmt::arg("name", name_of(carried.engine)), fmt::arg("ranks", carried.ranks),
-        fmt::arg("program", program_of(carried.engine)), fmt::arg("package", key_of(carried.engine)),
-        fmt::arg("check", lammps ? lammps_check : ""), fmt::arg("restart", restart),
-        fmt::arg("deck", deck_name(carried.engine)), fmt::arg("key", key_of(carried.engine)),
-        fmt::arg("status", status_name));
+        run_text, fmt::arg("forced", lammps ? "" : forced), fmt::arg("title", one_line(carried.scene.title)), fmt::arg("name", name_of(carried.engine)),
+        fmt::arg("ranks", carried.ranks), fmt::arg("program", program_of(carried.engine)),
+        fmt::arg("package", key_of(carried.engine)), fmt::arg("check", lammps ? lammps_check : ""),
+        fmt::arg("restart", restart), fmt::arg("deck", deck_name(carried.engine)),
+        fmt::arg("key", key_of(carried.engine)), fmt::arg("status", status_name));
 }
 
 std::string slurm_script(const CarriedScene& carried) {

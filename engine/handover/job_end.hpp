@@ -8,15 +8,20 @@
 
 namespace grainreel {
 
-// run.sh writes the exit status of mpirun into this file once it has ended.
+// run.sh writes this file: "running", and in its place the exit status of mpirun once that has ended. The
+// second line names the job: "job NODE PROCESS TIME start", or "continue" at the end if it went on from a
+// restart file.
 inline constexpr const char* status_name = "job.status";
 std::string log_name(
     PeerEngine engine);  // "log.lammps", the engine's own log, which also shows the command that failed
 std::string output_name(PeerEngine engine);  // "out.lammps"
 
 struct JobEnd {
-    bool ended = false;   // known to have ended; stays false if run.sh itself was killed
-    std::string failure;  // what went wrong, one line; empty if no failure is known
+    bool begun = false;    // known to have begun
+    bool ended = false;    // known to have ended; stays false if run.sh itself was killed
+    std::string job;       // its name, which no other job has; empty if that is not known
+    bool goes_on = false;  // whether it went on from a restart file
+    std::string failure;   // what went wrong, one line; empty if no failure is known
 };
 JobEnd job_end(const std::filesystem::path& folder, const HandoverFacts& facts);
 
