@@ -75,6 +75,7 @@ class Export final : public Verb {
             throw UserError(
                 fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
                             option, run_.string()));
+        if (!out_.empty()) check_free(out_, force_);
         bring_back_to_read(run_, reporter);
         FrameRequest request;
         request.reading = reading_;
