@@ -200,6 +200,16 @@ std::string one_line(std::string text) {
     return text;
 }
 
+// Prints the first error in the engine's log and output, with the line of the deck at which it came. The
+// words of deck and log are compared without comments and with one blank between them.
+constexpr const char* error_text = R"sh(error_of() {
+    awk 'function plain(s) { sub(/#.*/, "", s); gsub(/[ \t\r]+/, " ", s); gsub(/^ | $/, "", s); return s }
+        NR == FNR { if (plain($0) != "") line[plain($0)] = FNR; next }
+        /^ERROR/ { print deck (at ? ":" at : "") ": " $0 (at ? " (at `" command "`)" : ""); exit }
+        plain($0) in line { command = plain($0); at = line[command] }' deck="$1" "$@" 2> /dev/null
+}
+)sh";
+
 constexpr const char* run_text = R"sh(#!/bin/sh
 # {title}
 # Runs the deck on {name} under MPI:  sh run.sh            from the start
@@ -216,9 +226,9 @@ command -v "$engine" > /dev/null || {{
 if [ "$(id -u)" = 0 ]; then  # Open MPI refuses root otherwise
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
-# The first line of {status} is "running" or an exit status, the second names the job.
+{error}# The first line of {status} is "running" or an exit status, the second names the job.
 note() {{ printf '%s\njob %s\n' "$1" "$name" > {status}.part && mv -f {status}.part {status}; }}
-rm -f {status}  # of a job before
+rm -f {status} log.{key}  # of a job before
 {restart}name="$(uname -n) $$ $(date +%s) $way"
 note running
 mpirun -np "$ranks" "$engine" -in {deck} -log log.{key} "$@" > out.{key} 2>&1 < /dev/null &
@@ -231,7 +241,10 @@ while kill -0 "$job" 2> /dev/null; do  # a signal ended the wait
     status=$?
 done
 {forced}note "$status"  # so that whoever follows the dump knows
-[ "$status" = 0 ] || {{ echo "run.sh: {name} ended with $status; the end of out.{key}:" >&2; tail -n 5 out.{key} >&2; }}
+[ "$status" = 0 ] && exit 0
+error=$(error_of {deck} log.{key} out.{key})
+[ -n "$error" ] || tail -n 5 out.{key} >&2
+echo "run.sh: {name} ended with $status${{error:+: $error}}; all that it printed is in out.{key}" >&2
 exit $status
 )sh";
 
@@ -303,7 +316,8 @@ std::string run_script(const CarriedScene& carried) {
         fmt::format(forced_text, fmt::arg("begin", forced_begin), fmt::arg("end", forced_end),
                     fmt::arg("words", forced_words), fmt::arg("restart", restart_name(carried.engine)));
     return fmt::format(
-        run_text, fmt::arg("forced", lammps ? "" : forced), fmt::arg("title", one_line(carried.scene.title)), fmt::arg("name", name_of(carried.engine)),
+        run_text, fmt::arg("forced", lammps ? "" : forced), fmt::arg("error", error_text),
+        fmt::arg("title", one_line(carried.scene.title)), fmt::arg("name", name_of(carried.engine)),
         fmt::arg("ranks", carried.ranks), fmt::arg("program", program_of(carried.engine)),
         fmt::arg("package", key_of(carried.engine)), fmt::arg("check", lammps ? lammps_check : ""),
         fmt::arg("restart", restart), fmt::arg("deck", deck_name(carried.engine)),
