@@ -168,10 +168,10 @@ RunFolder::RunFolder(const RunFolderRequest& request) : command_(request.command
         path = request.base / fmt::format("{}-{}", request.name, number);
 }
 
-void RunFolder::take(const fs::path& out, bool force) {
+void RunFolder::check(const fs::path& out, bool force) {
     if (out.empty()) throw UserError("--out: the name is empty; name a folder, or leave out --out");
     const fs::path path = without_trailing_slash(out);
-    if (is_empty_folder(path)) return adopt(path);
+    if (is_empty_folder(path)) return;
     if (taken(path)) {
         check_not_in_use(path);
         if (!force) {
@@ -180,7 +180,20 @@ void RunFolder::take(const fs::path& out, bool force) {
                             "it when the new run is complete",
                             path.string()));
         }
-        check_holds_run(path);
+        return check_holds_run(path);
+    }
+    // The folder is made in the nearest one above it that is there.
+    fs::path above = fs::absolute(path).parent_path();
+    while (!taken(above) && above != above.parent_path()) above = above.parent_path();
+    if (::access((above / "").c_str(), W_OK | X_OK) != 0)
+        cannot_make(path, std::error_code(errno, std::generic_category()));
+}
+
+void RunFolder::take(const fs::path& out, bool force) {
+    check(out, force);
+    const fs::path path = without_trailing_slash(out);
+    if (is_empty_folder(path)) return adopt(path);
+    if (taken(path)) {
         previous_lock_ = locked(path);
         check_replaceable(path);
         move_aside(path);

@@ -34,6 +34,9 @@ class RunFolder {
     //  - another process fills it or the folder of a panel in it (a panel is one of several runs in a film),
     //  - the folder cannot be made or written.
     explicit RunFolder(const RunFolderRequest& request);
+    // Throws the same errors for `out` and makes nothing: for a command that works for long before it needs
+    // the folder.
+    static void check(const std::filesystem::path& out, bool force);
 
     const std::filesystem::path& path() const { return lock_->folder(); }
     const FolderLock& lock() const { return *lock_; }

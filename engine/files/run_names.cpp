@@ -98,6 +98,18 @@ void check_all_inside(const fs::path& folder) {
 
 }  // namespace
 
+bool is_of_another_engine(const fs::path& run) {
+    std::error_code ignored;
+    const fs::path folder = fs::is_directory(run, ignored) ? run : run.parent_path();
+    const auto has_facts = [&](const fs::path& place) {
+        return fs::is_regular_file(place / kHandoverFacts, ignored);
+    };
+    if (has_facts(folder) || has_facts(folder / kHandoverFolder)) return true;
+    // While a dump is followed, its moments lie in a hidden folder of the hand-over.
+    return folder.filename().string().starts_with('.') && folder.has_parent_path() &&
+           folder.filename() != "." && folder.filename() != ".." && has_facts(folder.parent_path());
+}
+
 bool is_file_of_runs(const fs::path& name) {
     return has(files_of_runs, name) || is_still(name);
 }

@@ -23,6 +23,12 @@ inline constexpr const char *kFormerRun = ".before", *kFormerRunPart = ".before.
 // The folder with the run in formats of other programs ([output] also).
 inline constexpr const char* kAlsoFolder = "also";
 
+// What is handed over to another engine has this file; a run of `--engine` has it in this folder.
+inline constexpr const char *kHandoverFacts = "handover.toml", *kHandoverFolder = "handover";
+// Whether another engine computed the run: a folder, or a file in one. Its dumps have grains alone, and no
+// moment of it can be brought back.
+bool is_of_another_engine(const std::filesystem::path& run);
+
 bool is_file_of_runs(const std::filesystem::path& name);        // "movie.mp4"
 bool is_folder_of_runs(const std::filesystem::path& name);      // "frames"
 bool is_frame(const std::filesystem::path& name);               // "000123.png", in frames/

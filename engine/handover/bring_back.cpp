@@ -275,6 +275,14 @@ bool ReturnedRun::take_next() {
     return true;
 }
 
+bool ReturnedRun::dump_is_shorter() const {
+    return impl_->dump.is_shorter();
+}
+
+void ReturnedRun::read_anew() {
+    impl_->dump.read_anew();
+}
+
 void ReturnedRun::close(RunJson& record) {
     Impl& m = *impl_;
     record.trajectory_frames = m.trajectory.frames();

@@ -13,6 +13,7 @@
 
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/frame.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/plan/plan.hpp"
@@ -70,12 +71,17 @@ class ReturnedRun {
     // a dump that does not fit the deck, and RunError for grains that were lost and a state that is not sound
     // (ReturnedHealth). After that no further frame may be taken.
     bool take_next();
+    // Whether the dump has become shorter than what was read of it, as when its job goes on from a restart
+    // file.
+    bool dump_is_shorter() const;
+    // Reads the dump from its beginning again. Moments that were taken already are passed over.
+    void read_anew();
     // Writes final.csv of the last frame, and what run.json says about the files.
     void close(RunJson& record);
 
     std::int64_t frames() const;
-    const Frame* last() const;                          // null before the first
-    static constexpr const char* kFolder = "handover";  // folder of deck and dump in the run's folder
+    const Frame* last() const;                               // null before the first
+    static constexpr const char* kFolder = kHandoverFolder;  // of deck and dump, in the run's folder
 
   private:
     struct Impl;

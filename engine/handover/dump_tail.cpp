@@ -73,6 +73,18 @@ void DumpTail::wrong(std::int64_t line, const std::string& what) const {
                                 file_.string(), line, what));
 }
 
+bool DumpTail::is_shorter() const {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file_, error);
+    return !error && size < place_;
+}
+
+void DumpTail::read_anew() {
+    text_.clear();
+    place_ = 0;
+    line_ = 1;
+}
+
 // Reads more of the file. Returns whether there was more.
 bool DumpTail::read_more() {
     std::error_code error;

@@ -33,6 +33,10 @@ class DumpTail {
     // The next frame if it is whole; none if it is not whole yet, or if there are no more. Throws UserError
     // with the line where the file holds something else, and RunError where it became shorter.
     std::optional<DumpRows> next();
+    // Whether the file has become shorter than what was read of it.
+    bool is_shorter() const;
+    // Begins again with the first frame.
+    void read_anew();
     // Number of bytes up to the end of the last frame that next() gave.
     std::uintmax_t taken() const { return place_ - text_.size(); }
 

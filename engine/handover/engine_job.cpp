@@ -246,14 +246,21 @@ std::string output_name(PeerEngine engine) {
 
 JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
     JobEnd end;
+    std::ifstream said(folder / status_name);
+    std::string first, second;
+    std::getline(said, first);
+    std::getline(said, second);
+    end.begun = !first.empty();
+    if (second.starts_with("job ")) end.job = second.substr(4);
+    end.goes_on = end.job.ends_with(" continue");
     int status = 0;
-    end.ended = static_cast<bool>(std::ifstream(folder / status_name) >> status);
+    end.ended = static_cast<bool>(std::istringstream(first) >> status);
     if (!end.ended || status == 0) return end;
     // A killed engine loses what it had not written of its log, and prints the error to its output as well.
     for (const std::string& file : {log_name(facts.engine), output_name(facts.engine)}) {
-        const std::string said = engine_error(folder / file, folder / deck_name(facts.engine));
-        if (said.empty()) continue;
-        end.failure = fmt::format("{} ended: {}", name_of(facts.engine), said);
+        const std::string error = engine_error(folder / file, folder / deck_name(facts.engine));
+        if (error.empty()) continue;
+        end.failure = fmt::format("{} ended: {}", name_of(facts.engine), error);
         return end;
     }
     // Where a rank was killed, mpirun asks the others to end.

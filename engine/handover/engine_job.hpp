@@ -78,15 +78,19 @@ class EngineJob {
 
 // From here on: the job of a hand-over, which run.sh starts. What is known of it are the files in its folder.
 
-// run.sh writes the exit status of mpirun into this file once it has ended.
+// run.sh writes this file: first "running", and in the end its exit status. The second line names the job:
+// "job NODE PROCESS TIME start", or "continue" at the end if it went on from a restart file.
 inline constexpr const char* status_name = "job.status";
 // "log.lammps", the engine's own log, which also shows the command that failed.
 std::string log_name(PeerEngine engine);
 std::string output_name(PeerEngine engine);  // "out.lammps"
 
 struct JobEnd {
-    bool ended = false;   // known to have ended; stays false if run.sh itself was killed
-    std::string failure;  // what went wrong, one line; empty if no failure is known
+    bool begun = false;    // known to have begun
+    bool ended = false;    // known to have ended; stays false if run.sh itself was killed
+    std::string job;       // its name, which no other job has; empty if that is not known
+    bool goes_on = false;  // whether it went on from a restart file
+    std::string failure;   // what went wrong, one line; empty if no failure is known
 };
 JobEnd job_end(const std::filesystem::path& folder, const HandoverFacts& facts);
 

@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/handover/decks.hpp"
 #include "engine/handover/engine_job.hpp"
 #include "engine/handover/triangle_walls.hpp"
@@ -20,8 +21,6 @@ namespace grainreel {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* facts_name = "handover.toml";
 
 bool grains_leave(const CarriedScene& carried) {
     return !carried.scene.exits.empty() || (carried.scene.container.outlet && !carried.scene.container.tray);
@@ -144,16 +143,16 @@ void write_handover(const fs::path& folder, const CarriedScene& carried, const S
     make_executable(folder / "run.sh");
     replace_file(folder / "job.slurm", slurm_script(carried));
     // This file is written last, so that a folder that has it is complete.
-    replace_file(folder / facts_name, facts_text(carried, start, version));
+    replace_file(folder / kHandoverFacts, facts_text(carried, start, version));
 }
 
 bool is_handover(const fs::path& folder) {
     std::error_code ignored;
-    return fs::is_regular_file(folder / facts_name, ignored);
+    return fs::is_regular_file(folder / kHandoverFacts, ignored);
 }
 
 HandoverFacts read_handover(const fs::path& folder) {
-    const fs::path file = folder / facts_name;
+    const fs::path file = folder / kHandoverFacts;
     toml::table table;
     try {
         table = toml::parse_file(file.string());
@@ -201,6 +200,16 @@ std::string one_line(std::string text) {
     return text;
 }
 
+// Prints the first error in the engine's log and output, with the line of the deck at which it came. The
+// words of deck and log are compared without comments and with one blank between them.
+constexpr const char* error_text = R"sh(error_of() {
+    awk 'function plain(s) { sub(/#.*/, "", s); gsub(/[ \t\r]+/, " ", s); gsub(/^ | $/, "", s); return s }
+        NR == FNR { if (plain($0) != "") line[plain($0)] = FNR; next }
+        /^ERROR/ { print deck (at ? ":" at : "") ": " $0 (at ? " (at `" command "`)" : ""); exit }
+        plain($0) in line { command = plain($0); at = line[command] }' deck="$1" "$@" 2> /dev/null
+}
+)sh";
+
 constexpr const char* run_text = R"sh(#!/bin/sh
 # {title}
 # Runs the deck on {name} under MPI:  sh run.sh            from the start
@@ -217,7 +226,11 @@ command -v "$engine" > /dev/null || {{
 if [ "$(id -u)" = 0 ]; then  # Open MPI refuses root otherwise
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
-{restart}rm -f {status}
+{error}# The first line of {status} is "running" or an exit status, the second names the job.
+note() {{ printf '%s\njob %s\n' "$1" "$name" > {status}.part && mv -f {status}.part {status}; }}
+rm -f {status} log.{key}  # of a job before
+{restart}name="$(uname -n) $$ $(date +%s) $way"
+note running
 mpirun -np "$ranks" "$engine" -in {deck} -log log.{key} "$@" > out.{key} 2>&1 < /dev/null &
 job=$!
 signal=0  # the one that this script gets; the ranks end with it
@@ -231,9 +244,12 @@ while kill -0 "$job" 2> /dev/null; do  # a signal ended the wait
     status=$?
 done
 [ "$signal" = 0 ] || [ "$status" = 0 ] || status=$((128 + signal))
-{forced}echo "$status" > {status}  # so that whoever follows the dump knows
+{forced}note "$status"  # so that whoever follows the dump knows
 [ "$signal" = 0 ] || {{ echo "run.sh: a signal ended the job; go on with: sh run.sh --continue" >&2; exit "$status"; }}
-[ "$status" = 0 ] || {{ echo "run.sh: {name} ended with $status; the end of out.{key}:" >&2; tail -n 5 out.{key} >&2; }}
+[ "$status" = 0 ] && exit 0
+error=$(error_of {deck} log.{key} out.{key})
+[ -n "$error" ] || tail -n 5 out.{key} >&2
+echo "run.sh: {name} ended with $status${{error:+: $error}}; all that it printed is in out.{key}" >&2
 exit $status
 )sh";
 
@@ -259,9 +275,11 @@ constexpr const char* restart_text = R"sh(if [ "$1" = --continue ]; then
         END {{ printf "%.0f", whole }}' {dump}) || exit 1
     truncate -s "$size" {dump}
     set -- -var goes_on 1 -var restart {restart}."$step"
+    way=continue
 else
     rm -f {restart}.* {end} {dump}  # of a run before
     set --
+    way=start
 fi
 )sh";
 
@@ -303,12 +321,12 @@ std::string run_script(const CarriedScene& carried) {
         fmt::format(forced_text, fmt::arg("begin", forced_begin), fmt::arg("end", forced_end),
                     fmt::arg("words", forced_words), fmt::arg("restart", restart_name(carried.engine)));
     return fmt::format(
-        run_text, fmt::arg("forced", lammps ? "" : forced), fmt::arg("title", one_line(carried.scene.title)),
-        fmt::arg("name", name_of(carried.engine)), fmt::arg("ranks", carried.ranks),
-        fmt::arg("program", program_of(carried.engine)), fmt::arg("package", key_of(carried.engine)),
-        fmt::arg("check", lammps ? lammps_check : ""), fmt::arg("restart", restart),
-        fmt::arg("deck", deck_name(carried.engine)), fmt::arg("key", key_of(carried.engine)),
-        fmt::arg("status", status_name));
+        run_text, fmt::arg("forced", lammps ? "" : forced), fmt::arg("error", error_text),
+        fmt::arg("title", one_line(carried.scene.title)), fmt::arg("name", name_of(carried.engine)),
+        fmt::arg("ranks", carried.ranks), fmt::arg("program", program_of(carried.engine)),
+        fmt::arg("package", key_of(carried.engine)), fmt::arg("check", lammps ? lammps_check : ""),
+        fmt::arg("restart", restart), fmt::arg("deck", deck_name(carried.engine)),
+        fmt::arg("key", key_of(carried.engine)), fmt::arg("status", status_name));
 }
 
 std::string slurm_script(const CarriedScene& carried) {

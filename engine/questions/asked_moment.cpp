@@ -172,6 +172,11 @@ Snapshot snapshot_of(const Simulation& run, const AskedRun& asked) {
 void MomentFinder::check_can_bring_back(const AskedMoment& moment) const {
     if (can_bring_back(moment)) return;
     const bool none = run_.checkpoints().empty();
+    if (none && is_of_another_engine(run_.frames().path()))
+        throw UserError(
+            fmt::format("{}: another engine computed the run, so that no moment can be brought back; "
+                        "ask for a kept moment with --no-replay",
+                        run_.frames().path().string()));
     throw UserError(fmt::format(
         "{}: has no checkpoint{}, so that {} brought back; ask for a kept moment with --no-replay, or "
         "run the scene again with output.checkpoints",

@@ -128,8 +128,7 @@ class PartName {
 
 }  // namespace
 
-Exported export_frames(const FrameArchive& frames, const std::string& format, const fs::path& path,
-                       const ExportChoice& choice, bool replace, const std::function<bool(double)>& watcher) {
+void check_free(const fs::path& path, bool replace) {
     std::error_code error;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, error))
@@ -138,6 +137,12 @@ Exported export_frames(const FrameArchive& frames, const std::string& format, co
     if (fs::exists(path, error) && !replace)
         throw UserError(fmt::format("--out {}: exists already; choose another name, or --force to replace it",
                                     path.string()));
+}
+
+Exported export_frames(const FrameArchive& frames, const std::string& format, const fs::path& path,
+                       const ExportChoice& choice, bool replace, const std::function<bool(double)>& watcher) {
+    std::error_code error;
+    check_free(path, replace);
     const std::vector<std::size_t> wanted = chosen(frames, choice);
     const PartName part(path);
     const std::unique_ptr<FrameWriter> writer = frame_writer(format, part.path());

@@ -72,6 +72,9 @@ struct Exported {
     double first = 0;  // s, time of the first frame
 };
 
+// Throws UserError where `path` exists already (unless `replace`), or the folder around it is missing.
+void check_free(const std::filesystem::path& path, bool replace);
+
 // Writes frames in the format of that name. The result gets its name only when it is whole. Throws UserError
 // where no frame is chosen, where a time lies outside the run, and where `path` exists already (unless
 // `replace`) or cannot be made; throws RunError where the disk is full. watcher: called with the share that

@@ -15,6 +15,7 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/files/measures_csv.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/measure/bed/bed_formulas.hpp"
 
 namespace grainreel {
@@ -156,9 +157,12 @@ void RunArchive::use_contacts(bool alone) {
             fmt::format("{}: its files say no contacts; name files that do by --contacts, or let "
                         "film.colour.by be something else and film.force_chains false",
                         folder_.filename().string()));
-    const fs::path file = file_of_run(folder_, "contacts.nc",
-                                      "the run was not told to keep contacts (output.contacts = true); let "
-                                      "film.colour.by be something else and film.force_chains false");
+    const char* const why = is_of_another_engine(folder_)
+                                ? "another engine computed the run, and its dumps have no contacts; let "
+                                  "film.colour.by be something else and film.force_chains false"
+                                : "the run was not told to keep contacts (output.contacts = true); let "
+                                  "film.colour.by be something else and film.force_chains false";
+    const fs::path file = file_of_run(folder_, "contacts.nc", why);
     contacts_.emplace(file);
     if (!alone && contacts_->cut_off()) {
         contacts_.reset();

@@ -11,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/questions/contact_questions.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
@@ -107,6 +108,8 @@ class Inspection {
                      : open_filmed_run(asks_.run, sets_for_contacts(asks_.run));
         // Our own trajectory without its folder does not count as a file of another program here.
         foreign_ = dynamic_cast<const ForeignArchive*>(&asked_->asked->frames()) != nullptr;
+        elsewhere_ = !foreign_ && is_of_another_engine(asks_.run);
+        foreign_ = foreign_ || elsewhere_;
         asks_.no_replay = asks_.no_replay || foreign_;
         CaptionHolds holds(asked_->scene().film);
         asks_.moment.held = [holds](double time) mutable { return holds.begin_at(time); };
@@ -221,15 +224,20 @@ class Inspection {
     void check_known(const AskedMoment& asked, const AskedRun& asked_run) const {
         if (asks_for_forces())
             throw UserError(
-                fmt::format("{}: {}: forces on walls and overlaps are known of runs of ours alone",
+                fmt::format("{}: {}: forces on walls and overlaps are known of runs of our own engine alone",
                             asks_.wall ? "--wall" : "--largest-overlap", asks_.run.string()));
+        if (elsewhere_ && takes(Needs::contacts))
+            throw UserError(fmt::format(
+                "{}: another engine computed the run, and its dumps have no contacts; --help lists "
+                "the quantities that are always known, without a *",
+                asks_.run.string()));
         if (takes(Needs::contacts) && !asked_run.frames().has_contacts_of(asked.nearest))
             throw UserError(
                 fmt::format("{}: says no contacts of that moment; name a file that has them by --contacts",
                             asks_.run.string()));
         if (takes(Needs::forces) || takes(Needs::period))
             throw UserError(
-                fmt::format("{}: a quantity that is asked for is known of runs of ours alone; "
+                fmt::format("{}: a quantity that is asked for is known of runs of our own engine alone; "
                             "--help lists the others, without a *",
                             asks_.run.string()));
     }
@@ -241,6 +249,7 @@ class Inspection {
     // The mean of the answers at the moments of the last periods before the asked moment.
     Answer mean_answer(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) const {
         const AskedMoment asked = finder.find(asks_.moment);
+        if (foreign_) check_known(asked, asked_run);
         const bool replay = !asks_.no_replay && finder.can_bring_back(asked);
         if (!replay && asks_for_forces())
             throw UserError(
@@ -331,7 +340,8 @@ class Inspection {
 
     InspectRequest asks_;
     std::unique_ptr<const AskedRunWithFilm> asked_;  // the run, once it is open
-    bool foreign_ = false;                           // whether the files are of another program
+    bool foreign_ = false;                           // whether another program computed the run
+    bool elsewhere_ = false;                         // whether it was handed over to another engine
     std::vector<std::string> missing_;               // words for what an answer lacks
 };
 

@@ -3,6 +3,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
+#include "engine/files/run_folder.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
@@ -63,6 +64,7 @@ class Compare final : public Verb {
         check_print_size(request_.print, request_.at.has_value(), "--at");
         film_.command = command;
         film_.program = program_info();
+        if (film_.out) RunFolder::check(*film_.out, film_.force);
         bool any_foreign = false;
         for (std::filesystem::path& input : request_.inputs) {
             bring_back_to_read(input, reporter);

@@ -53,7 +53,9 @@ class Export final : public Verb {
             ->check(CLI::IsMember(names));
         parser
             .add_option("--out", out_,
-                        "File or folder to make [beside RUN, with its name and the ending of the format]")
+                        "File or folder to make [beside RUN, with its name and the ending of the format; "
+                        "when that is taken, "
+                        "with a number, as in RUN.2.xyz]")
             ->type_name("PATH")
             ->check(not_empty());
         parser.add_flag("--force", force_, "Replace a file or folder of that name");
@@ -76,6 +78,7 @@ class Export final : public Verb {
             throw UserError(
                 fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
                             option, run_.string()));
+        if (!out_.empty()) check_free(out_, force_);
         bring_back_to_read(run_, reporter);
         FrameRequest request;
         request.reading = reading_;
@@ -99,21 +102,23 @@ class Export final : public Verb {
 
   private:
     // The usual name of the result: "run.dump"; for vtk the folder "run-vtk"; for xyz "run.xyz". When a name
-    // is taken, a number is added, as in "run-2.xyz", unless --force replaces what is there.
+    // is taken, a number is added after a point: "run.2.xyz", "run.2-vtk", unless --force replaces what is
+    // there. Runs have theirs after a hyphen, so that "run-2.xyz" is of the run "run-2" alone.
     fs::path usual_name() const {
         std::string ending;
         for (const FrameFormat& format : frame_formats())
             if (format_ == format.name) ending = format.ending;
         fs::path base = fs::absolute(run_).lexically_normal();
         if (!base.has_filename()) base = base.parent_path();
-        std::string stem = base.stem().string();
+        std::error_code ignored;
+        const bool folder = fs::is_directory(base, ignored);  // its name has no ending
+        std::string stem = (folder ? base.filename() : base.stem()).string();
         std::erase_if(stem, [](char c) { return c == '*' || c == '?' || c == '[' || c == ']'; });
         const fs::path beside =
             run_.has_parent_path() && run_.has_filename() ? run_.parent_path() : base.parent_path();
         fs::path name = beside / (stem + ending);
-        std::error_code ignored;
         for (int number = 2; fs::exists(name, ignored) && !force_; ++number)
-            name = beside / fmt::format("{}-{}{}", stem, number, ending);
+            name = beside / fmt::format("{}.{}{}", stem, number, ending);
         return name;
     }
 

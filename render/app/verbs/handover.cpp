@@ -92,6 +92,7 @@ class Handover final : public Verb {
         folder_.base = output_base();
         folder_.command = command;
         check_replaceable();
+        if (folder_.out && !folder_.force) RunFolder::check(*folder_.out, false);
         const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
         const int threads = plan_threads(processors, false, scene.grains()).engine;
         const StartState start = start_state(carried, threads, watcher(reporter));

@@ -26,6 +26,7 @@
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/run/engine_run.hpp"
 #include "render/film/run/movie_run.hpp"
+#include "render/film/sources/recorded_run.hpp"
 #include "render/page/live/server.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -181,6 +182,9 @@ class Movie final : public Verb {
         carry_.pack_option = "handover --pack-there";
         carry_.accept_law = !accepted_.empty();
         carry_.edinburgh = !law_.empty();
+        const std::optional<std::string> lack =
+            film_.film || film_.frames ? lacking_elsewhere(scene) : std::nullopt;
+        if (lack) throw UserError(fmt::format("{}: --engine {}: {}", scene.file, engine_, *lack));
         CarriedScene carried = carry(scene, plan, carry_);
         throw_refusals(carried, [&](const std::string& line) { reporter.error(line); });
         if (film_.film || film_.frames) want_pictures(carried, scene);

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
+#include "engine/files/run_folder.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/listener.hpp"
@@ -104,6 +105,11 @@ class Render final : public Verb {
         check_idle();
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
+        // The files may be large, or of a job that has not begun.
+        if (is_still())
+            check_still(film_, request_);
+        else if (film_.out && slurm_ == 0)
+            RunFolder::check(*film_.out, film_.force);
         if (follow_) return is_handover(request_.run) ? follow_job(reporter) : follow(reporter);
         const RunToRead read = run_to_read(request_.run, reading_, reporter);
         request_.run = read.folder;

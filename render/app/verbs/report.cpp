@@ -131,6 +131,7 @@ class Report final : public Verb {
             throw UserError(fmt::format("report: {} runs do not fit side by side; give {} at most",
                                         runs_.size(), most_runs));
         check_paper(paper_);
+        if (!out_.empty()) check_out(out_);
         if (runs_.size() > 1 && out_.empty()) out_ = "side_by_side.html";
         for (fs::path& run : runs_) {
             const RunToRead read = run_to_read(run, reading_, reporter);

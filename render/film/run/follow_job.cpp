@@ -17,6 +17,7 @@
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/film_request.hpp"
+#include "render/film/sources/recorded_run.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 
 namespace grainreel {
@@ -49,20 +50,33 @@ FollowJob::FollowJob(const FilmRequest& request, const FollowRequest& what, RunL
       plan_(make_plan(scene_)),
       returning_(free_folder(what.from)),
       holds_(scene_.film) {
+    if (const auto lack = lacking_elsewhere(scene_))
+        throw UserError(fmt::format("{}: {}", what.from.string(), *lack));
     const std::int64_t pictures = std::ssize(film_schedule(scene_, plan_.clock, plan_.steps));
     film_.check(scene_, pictures);
     film_.use_threads(drawing_threads(scene_.run.threads));
     keep_mesh_files(scene_, returning_->path());
     fs::copy_file(what.from / "scene.toml", returning_->path() / "scene.toml");
     back_ = std::make_unique<ReturnedRun>(returning_->path(), scene_, plan_, facts_, request.program.version);
+    const JobEnd before = job_end(what.from, facts_);
+    job_ = before.job;
+    earlier_ = before.ended;
     wait_for_first();
     make_folder({scene_.name + "-render", what.beside, request.out, request.force});
 }
 
 void FollowJob::wait_for_first() {
-    while (!back_->take_next()) {
-        const JobEnd job = job_end(what_.from, facts_);
-        if (job.ended && !back_->take_next()) {
+    const auto take = [&] {
+        try {
+            return back_->take_next();
+        } catch (const std::exception&) {
+            if (!job_goes_on()) throw;
+            return false;
+        }
+    };
+    while (!take()) {
+        const JobEnd job = look_at_job();
+        if (job.ended && !take()) {
             if (!job.failure.empty())
                 throw RunError(fmt::format("{}: has no whole moment; {}", facts_.dump.string(), job.failure));
             throw UserError(
@@ -79,6 +93,33 @@ void FollowJob::wait_for_first() {
     idle_ = Stopwatch();
 }
 
+JobEnd FollowJob::look_at_job() {
+    JobEnd now = job_end(what_.from, facts_);
+    if (!now.ended || now.job != job_) earlier_ = false;
+    if (!now.job.empty() && now.job != job_) {
+        job_ = now.job;
+        if (back_->last() == nullptr || now.goes_on)
+            back_->read_anew();
+        else
+            unsound_ = fmt::format(
+                "{}: a new job began from the start, and its grains go other ways; begin "
+                "--follow again",
+                what_.from.string());
+    }
+    now.ended = now.ended && !earlier_;
+    return now;
+}
+
+bool FollowJob::job_goes_on() {
+    const std::string before = job_;
+    const JobEnd now = look_at_job();
+    if (job_ != before) return true;
+    // run.sh takes the status away before it cuts the dump.
+    const bool cut = !now.begun && back_->dump_is_shorter();
+    if (cut) back_->read_anew();
+    return cut;
+}
+
 bool FollowJob::read_some() {
     const auto timer = desk_.times.during("reading");
     const Stopwatch reading;
@@ -87,16 +128,17 @@ bool FollowJob::read_some() {
         while (unsound_.empty() && reading.seconds() < kReading && !stopped() && back_->take_next())
             some = true;
     } catch (const std::exception& wrong) {  // what was read so far is still drawn
-        unsound_ = wrong.what();
+        if (!job_goes_on()) unsound_ = wrong.what();
     }
     if (some) idle_ = Stopwatch();
     return some;
 }
 
-FollowJob::End FollowJob::end_now() const {
+FollowJob::End FollowJob::end_now() {
+    const JobEnd job = look_at_job();
     if (!unsound_.empty()) return End::unsound;
     if (back_->last()->step >= facts_.last) return End::whole;
-    if (job_end(what_.from, facts_).ended) return End::job;
+    if (job.ended) return End::job;
     return idle_.seconds() >= what_.idle ? End::idle : End::none;
 }
 
@@ -158,6 +200,11 @@ bool FollowJob::work() {
     desk_.record.scene_file = scene_.file;
     open_anew();
     begin_record(warnings());
+    if (earlier_ && back_->last()->step < facts_.last)
+        desk_.listener.info(
+            fmt::format("{}: the job has ended before; if none goes on, the film ends after "
+                        "{:.3g} s (--idle)",
+                        what_.from.string(), what_.idle));
     desk_.listener.info(
         fmt::format("{}: follows {} until {:.6g} s; the film ends with the job, when nothing "
                     "new has come for {:.3g} s, or with Ctrl-C",

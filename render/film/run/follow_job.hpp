@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/handover/bring_back.hpp"
+#include "engine/handover/engine_job.hpp"
 #include "engine/plan/plan.hpp"
 #include "render/film/run/folder_film.hpp"
 #include "render/film/run/follow_run.hpp"
@@ -34,9 +35,13 @@ class FollowJob final : public FilmRun {
     void report_written() override;
 
     void wait_for_first();
+    // How the job is. A status that was there when the film began is of an earlier job, which may go on.
+    JobEnd look_at_job();
+    // Whether an error in reading came from a job that goes on and cuts the dump; then it is read anew.
+    bool job_goes_on();
     // Takes what the dump has, for a quarter of a second at most. Returns whether there was something.
     bool read_some();
-    End end_now() const;
+    End end_now();
     bool stopped() const { return desk_.listener.stop_signal() != 0; }
     std::vector<std::string> warnings() const;
     void open_anew();
@@ -51,6 +56,8 @@ class FollowJob final : public FilmRun {
     const Plan plan_;
     std::unique_ptr<ReturningFolder> returning_;
     std::unique_ptr<ReturnedRun> back_;
+    std::string job_;      // name of the job whose moments come
+    bool earlier_ = true;  // whether the status is still that of the job before the film began
     Stopwatch idle_;       // since the last moment came
     std::string unsound_;  // why no more moments may be taken
     std::unique_ptr<RevisitedRun> source_;

@@ -30,7 +30,7 @@ fs::path free_name(const FilmedScene& scene, const fs::path& beside, double time
     return path;
 }
 
-void check_free(const fs::path& path, bool force) {
+void check_png(const fs::path& path, bool force) {
     std::error_code error;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, error))
@@ -132,13 +132,17 @@ std::string seconds_in_names(double time) {
     return fmt::format("{:.{}f}", time, digits);
 }
 
-std::optional<fs::path> draw_still(const FilmRequest& request, const RenderRequest& what,
-                                   RunListener& listener, RevisitedRun& source) {
+void check_still(const FilmRequest& request, const RenderRequest& what) {
     if (request.to_stdout)
         throw UserError(
             fmt::format("--out -: with {}, name a file that ends in .png", what.frame ? "--frame" : "--at"));
+    if (request.out) check_png(*request.out, request.force);
+}
+
+std::optional<fs::path> draw_still(const FilmRequest& request, const RenderRequest& what,
+                                   RunListener& listener, RevisitedRun& source) {
+    check_still(request, what);
     const Chosen chosen = choose(what, source);
-    if (request.out) check_free(*request.out, request.force);
     for (const std::string& line : source.news()) listener.warning(line);
     if (chosen.instead) listener.warning(*chosen.instead);
     for (const std::string& line : film_warnings(source.scene(), 1)) listener.warning(line);

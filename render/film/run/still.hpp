@@ -18,6 +18,9 @@ namespace grainreel {
 std::optional<std::filesystem::path> draw_still(const FilmRequest& request, const RenderRequest& what,
                                                 RunListener& listener, RevisitedRun& source);
 
+// Throws UserError where --out names no PNG file, or one that exists and may not be replaced.
+void check_still(const FilmRequest& request, const RenderRequest& what);
+
 // Writes a time (s) for a file's name: "1.250", with more digits when the time needs them.
 std::string seconds_in_names(double time);
 

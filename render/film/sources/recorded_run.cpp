@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/state/container_faces.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/film/sources/recorded_scene.hpp"
@@ -33,11 +34,27 @@ class AsFilmed final : public AskedRun {
 
 }  // namespace
 
+std::optional<std::string> lacking_elsewhere(const FilmedScene& scene) {
+    const FilmShows& shows = scene.film.shows;
+    const std::string begin = "another engine computes the run, and ";
+    if (scene.film.look.rotation) return begin + "its dumps have no orientations; let film.rotation be false";
+    if (needs_touches(shows))
+        return begin +
+               "its dumps have no contacts; let film.colour.by be something else and film.force_chains false";
+    if (shows.wall_forces.wanted)
+        return begin + "forces on walls are not measured there; let film.wall_forces be false";
+    if (shows_wear(scene))
+        return begin + "wear of walls is not measured there; let film.walls.colour be \"plain\"";
+    return std::nullopt;
+}
+
 RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use use)
     : for_questions_(use.for_questions), scene_(scene_of_run(folder_of_run(folder), sets)) {
     archive_ = std::make_shared<RunArchive>(folder_of_run(folder), scene_, use.for_questions);
     record_ = std::make_unique<AsFilmed>(*this, archive_);
     const FilmShows& shows = scene_.film.shows;
+    if (const auto lack = lacking_elsewhere(scene_); lack && is_elsewhere() && !use.for_questions)
+        throw UserError(fmt::format("{}: {}", archive_->folder().string(), *lack));
     if (scene_.film.look.rotation && !archive_->supply().orientations && is_import())
         throw UserError(
             fmt::format("{}: its files say no orientations; let film.rotation be false", scene_.title));
@@ -60,10 +77,10 @@ RecordedRun::RecordedRun(const fs::path& folder, const Assignments& sets, Use us
 void RecordedRun::do_without_others() {
     if (needs_touches(scene_.film.shows) && !archive_->has_contacts() && !for_questions_)
         archive_->read_contacts(true);
-    for (std::string& line :
-         single_moment_warnings(scene_,
-                                "frames that a run kept are single moments; let them be brought back, "
-                                "or run the scene again with `movie`"))
+    for (std::string& line : single_moment_warnings(
+             scene_, is_elsewhere() ? "the moments that another engine wrote are single ones"
+                                    : "frames that a run kept are single moments; let them be brought back, "
+                                      "or run the scene again with `movie`"))
         archive_->note(std::move(line));
     if (needs_displacement(scene_.film.shows)) look_for_earlier_frames();
 }
@@ -121,11 +138,15 @@ void RecordedRun::check_columns() const {
             throw UserError(
                 fmt::format("{}: {} {}, which is known of runs of ours alone; take that out of the film",
                             scene_.title, what, name));
-        else
+        if (is_elsewhere())
             throw UserError(
-                fmt::format("{}: lacks the column {}, which {}; take that out of the film, or run "
-                            "the scene again with it",
-                            name_of("measures.csv"), name, what));
+                fmt::format("{}: {} {}, which is measured in runs of our own engine alone; take "
+                            "that out of the film",
+                            archive_->folder().string(), what, name));
+        throw UserError(
+            fmt::format("{}: lacks the column {}, which {}; take that out of the film, or run "
+                        "the scene again with it",
+                        name_of("measures.csv"), name, what));
     };
     need("time_s", "every run has");
     for (const FilmPlot& plot : scene_.film.shows.plots) need(plot.column, "film.plot shows");
@@ -138,6 +159,10 @@ void RecordedRun::read_outflow_of_run() {
     const std::string name = name_of("outflow.csv");
     outflow_ = OutflowSums::read(name, scene_);
     if (!outflow_) archive_->note(fmt::format("{}: is missing; how much has flowed out is left out", name));
+}
+
+bool RecordedRun::is_elsewhere() const {
+    return is_of_another_engine(archive_->folder());
 }
 
 bool RecordedRun::is_import() const {

@@ -20,6 +20,10 @@
 
 namespace grainreel {
 
+// What the film shows that no other engine tells, with what to do without it, for a message; none if it shows
+// nothing of the kind.
+std::optional<std::string> lacking_elsewhere(const FilmedScene& scene);
+
 class RecordedRun final : public FrameSource, private PartSupply {
   public:
     // sets: changes to the scene that concern the drawing only: keys of [film], colours of species,
@@ -84,6 +88,8 @@ class RecordedRun final : public FrameSource, private PartSupply {
     void read_outflow_of_run();
     // Whether the frames come from files of another program.
     bool is_import() const;
+    // Whether another engine computed the run.
+    bool is_elsewhere() const;
     void read_wear_of_run();
     void fit_range_of_import();
     void look_for_earlier_frames();

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
+#include <cstdlib>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -81,9 +83,20 @@ class FollowedJob : public testing::Test {
                                     0.3 - 0.5 * 9.81 * time * time + lift, speed);
         }
     }
-    void job_ends(int status, const std::string& words = "") {
+    void job_ends(int status, const std::string& words = "", const std::string& job = "node 1 1 start") {
         if (!words.empty()) write_text(here / "job/out.lammps", words);
-        write_text(here / "job/job.status", std::to_string(status) + "\n");
+        write_text(here / "job/job.status", fmt::format("{}\njob {}\n", status, job));
+    }
+    void job_begins(const std::string& job) {
+        write_text(here / "job/job.status", "running\njob " + job + "\n");
+    }
+    // As run.sh --continue does: the frames from `from` on are cut off and come again.
+    void job_goes_on_from(int from, const std::string& job) {
+        fs::remove(here / "job/job.status");
+        std::string text = text_of(here / "job/lammps.dump");
+        const std::string frame = fmt::format("ITEM: TIMESTEP\n{}\n", from * kStepsAPicture);
+        fs::resize_file(here / "job/lammps.dump", text.find(frame));
+        job_begins(job);
     }
     // Number of pictures that are encoded so far.
     bool film_grows(Program& following, std::uintmax_t beyond) {
@@ -125,23 +138,67 @@ TEST_F(FollowedJob, IsDrawnBesideTheJob) {
 }
 
 TEST_F(FollowedJob, EndsWithTheJobThatEndsEarlyInGoodOrder) {
+    job_begins("node 1 1 start");
+    Program following(follow("300"), {here.path(), {}});
     add(0, 6);
     job_ends(0);
-    const Ended ended = program(follow("300"));
+    const Ended ended = following.wait();
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("LAMMPS has come to 0.05 s of 0.2 s"));
     EXPECT_EQ(drawn(), 6);
 }
 
 TEST_F(FollowedJob, SaysWhyTheJobDied) {
+    job_begins("node 1 1 start");
+    Program following(follow("300"), {here.path(), {}});
     add(0, 6);
     job_ends(1, "LAMMPS (29 Sep 2021)\nERROR: Lost atoms: original 1 current 0 (../thermo.cpp:438)\n");
-    const Ended ended = program(follow("300"));
+    const Ended ended = following.wait();
     EXPECT_EQ(ended.status, 1) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("LAMMPS ended: in.lammps: ERROR: Lost atoms: original 1 current 0"));
     EXPECT_THAT(ended.err, HasSubstr("0.05 s of 0.2 s"));
     EXPECT_EQ(drawn(), 6);
     EXPECT_EQ(status_of_film(), "failed");
+}
+
+// The status is of a job that was killed. The film waits for the one that goes on, which cuts the dump.
+TEST_F(FollowedJob, WaitsForAJobThatGoesOn) {
+    for (const bool named : {true, false}) {
+        fs::remove_all(here / "film");
+        fs::remove(here / "job/lammps.dump");
+        fs::remove(here / "job/trajectory.nc");
+        add(0, 8);
+        job_ends(143, "", "node 1 1 start");
+        if (!named) write_text(here / "job/job.status", "143\n");  // of a run.sh that names no job
+        Words words = follow("300");
+        words.emplace_back("--frames");
+        Program following(words, {here.path(), {}});
+        ASSERT_TRUE(film_grows(following, 7)) << following.wait().err;
+        job_goes_on_from(5, "node 2 2 continue");
+        add(5, 5);
+        ASSERT_TRUE(film_grows(following, 9)) << following.wait().err;
+        add(10, kPictures - 11);
+        job_ends(0, "", "node 2 2 continue");
+        const Ended ended = following.wait();
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr("job: the job has ended before; if none goes on"));
+        EXPECT_THAT(ended.err, HasSubstr("0.19 s of 0.2 s"));
+        EXPECT_EQ(drawn(), kPictures - 1);
+    }
+}
+
+TEST_F(FollowedJob, AJobThatBeginsAgainFromTheStartEndsTheFilm) {
+    add(0, 8);
+    job_ends(143, "", "node 1 1 start");
+    Words words = follow("300");
+    words.emplace_back("--frames");
+    Program following(words, {here.path(), {}});
+    ASSERT_TRUE(film_grows(following, 7)) << following.wait().err;
+    job_begins("node 2 2 start");
+    const Ended ended = following.wait();
+    EXPECT_EQ(ended.status, 1) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("a new job began from the start"));
+    EXPECT_EQ(drawn(), 8);
 }
 
 TEST_F(FollowedJob, EndsWhereNothingNewComes) {
@@ -200,6 +257,35 @@ TEST_F(FollowedJob, IsInspectedBeforeItWasDrawn) {
     EXPECT_THAT(ended.out, HasSubstr("0.25095"));  // m, 0.3 - g (0.1 s)^2 / 2
 }
 
+// No advice to run the scene with another output: a dump has grains alone.
+TEST_F(FollowedJob, IsNotAskedForWhatNoDumpHas) {
+    add(0, kPictures);
+    const std::vector<std::pair<Words, std::string>> cases = {
+        {{"render", "job", "--set", "film.force_chains=true"},
+         "job: another engine computes the run, and its dumps "},
+        {{"render", "job", "--follow", "--set", "film.force_chains=true"}, "its dumps have no contacts"},
+        {{"render", "job", "--set", "film.rotation=true"}, "its dumps have no orientations"},
+        {{"render", "job", "--set", "film.wall_forces=true"}, "forces on walls are not measured there"},
+        {{"compare", "job", "job", "--set", "film.force_chains=true"}, "its dumps have no contacts"},
+        {{"inspect", "job", "--wall", "floor"},
+         "--wall: job: forces on walls and overlaps are known of runs of our"},
+        {{"inspect", "job", "--largest-overlap"}, "known of runs of our own engine alone"},
+        {{"inspect", "job", "--where", "contacts > 2"}, "its dumps have no contacts"},
+        {{"inspect", "job", "--where", "force > 2 N"}, "known of runs of our own engine alone"},
+        {{"movie", "ball.toml", "--engine", "lammps", "--set", "film.force_chains=true"},
+         "--engine lammps: another "}};
+    for (const auto& [words, part] : cases) {
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 2) << testing::PrintToString(words) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(part)) << testing::PrintToString(words);
+        EXPECT_THAT(ended.err, Not(HasSubstr("output."))) << testing::PrintToString(words);
+        EXPECT_THAT(ended.err, Not(HasSubstr("--no-replay"))) << testing::PrintToString(words);
+    }
+    const Ended between = program({"inspect", "job", "--at", "0.0512s", "--where", "z > 0 m"});
+    EXPECT_EQ(between.status, 0) << between.err;
+    EXPECT_THAT(between.out, HasSubstr("0.0512 s was not kept; this is the nearest kept moment"));
+}
+
 TEST_F(FollowedJob, IsExportedBeforeItWasDrawn) {
     add(0, 6);
     const Ended ended = program({"export", "job", "--to", "xyz", "--out", "job.xyz"});
@@ -231,6 +317,63 @@ TEST_F(FollowedJob, EachVerbSaysWhyTheRunIsShort) {
         EXPECT_THAT(ended.err, HasSubstr("LAMMPS was asked to end by a signal (Ctrl-C, scancel or a time "
                                          "limit); it has come to 0.05 s of "));
     }
+}
+
+// A stand-in for mpirun, whose banner comes after the engine's error.
+TEST_F(FollowedJob, TheEnginesErrorIsTheLastThatRunShSays) {
+    fs::create_directory(here / "bin");
+    write_text(here / "bin/mpirun",
+               "#!/bin/sh\ncp job.status during.status\n"
+               "printf 'units si\\npair_style nonsense 3\\nERROR: Unrecognized (force.cpp:278)\\n' | tee "
+               "log.lammps\n"
+               "printf -- '-----\\nmpirun detected that one or more processes exited\\n-----\\n'\nexit 1\n");
+    fs::permissions(here / "bin/mpirun", fs::perms::owner_all);
+    write_text(here / "job/in.lammps", "units si  # metres\n\npair_style   nonsense\t3\n");
+    const std::string command = fmt::format(
+        "cd '{}' && PATH=\"$PWD/bin:$PATH\" ENGINE=true sh job/run.sh 2> said", here.path().string());
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+    EXPECT_EQ(text_of(here / "said"),
+              "run.sh: LAMMPS ended with 1: in.lammps:3: ERROR: Unrecognized (force.cpp:278) (at `pair_style "
+              "nonsense "
+              "3`); all that it printed is in out.lammps\n");
+    EXPECT_THAT(text_of(here / "job/during.status"),
+                testing::MatchesRegex("running\njob .* [0-9]+ [0-9]+ start\n"));
+    EXPECT_THAT(text_of(here / "job/job.status"), testing::MatchesRegex("1\njob .* [0-9]+ [0-9]+ start\n"));
+    const std::string running = text_of(here / "job/during.status"), ended = text_of(here / "job/job.status");
+    EXPECT_EQ(running.substr(running.find('\n')), ended.substr(ended.find('\n'))) << "both name the same job";
+}
+
+// Packing may take minutes, so that nothing is packed for a folder that cannot be had.
+TEST_F(FollowedJob, ATakenFolderIsRefusedBeforeAnythingElse) {
+    fs::create_directory(here / "taken");
+    write_text(here / "taken/mine", "precious");
+    std::string packed = falling;
+    packed.replace(packed.find("diameter"), 0, "count = 50\n");
+    packed.erase(packed.find("[start]"), packed.find("[run]") - packed.find("[start]"));
+    write_text(here / "packed.toml", packed);
+    const Words hand_over = {"handover", "packed.toml", "--to", "lammps", "--progress", "json", "--out"};
+    const auto handed_to = [&](const std::string& folder) {
+        Words words = hand_over;
+        words.push_back(folder);
+        return program(words);
+    };
+    EXPECT_THAT(handed_to("free").err, HasSubstr("settling"));
+    const Ended ended = handed_to("taken");
+    EXPECT_EQ(ended.status, 2) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("--out taken: exists already"));
+    EXPECT_THAT(ended.err, Not(HasSubstr("settling")));
+    // A dump that is damaged would be refused too, once it is read.
+    write_text(here / "job/lammps.dump", "nonsense\n");
+    for (const Words& words :
+         {Words{"export", "job", "--to", "csv", "--out", "taken"}, Words{"render", "job", "--out", "taken"},
+          Words{"render", "job", "--follow", "--out", "taken"},
+          Words{"render", "job", "--at", "0", "--out", "taken"},
+          Words{"compare", "job", "job", "--out", "taken"}, Words{"report", "job", "--out", "taken"}}) {
+        const Ended refused = program(words);
+        EXPECT_EQ(refused.status, 2) << testing::PrintToString(words) << refused.err;
+        EXPECT_THAT(refused.err, HasSubstr("--out taken: ")) << testing::PrintToString(words);
+    }
+    EXPECT_EQ(text_of(here / "taken/mine"), "precious");
 }
 
 TEST_F(FollowedJob, IsToldToRunFirst) {

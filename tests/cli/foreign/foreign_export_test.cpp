@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 
 #include <gmock/gmock.h>
 
@@ -154,6 +155,18 @@ TEST_F(ForeignExport, NeverWritesOverWhatIsThere) {
     EXPECT_EQ(text_of(here / "mine.csv"), "precious");
     EXPECT_EQ(timed({"export", "bed.dump", "--to", "csv", "--out", "mine.csv", "--force"}).status, 0);
     EXPECT_NE(text_of(here / "mine.csv"), "precious");
+}
+
+// A second run of a scene "bed" is "bed-2", so the second export of a run "bed" has another kind of name.
+TEST_F(ForeignExport, NamesOfSecondExportsAreNotThoseOfSecondRuns) {
+    for (const auto& [format, names] : std::map<std::string, std::vector<std::string>>{
+             {"csv", {"bed.csv", "bed.2.csv", "bed.3.csv"}}, {"vtk", {"bed-vtk", "bed.2-vtk"}}})
+        for (const std::string& name : names) {
+            const Ended ended = timed({"export", "bed.dump", "--to", format});
+            EXPECT_EQ(ended.status, 0) << ended.err;
+            EXPECT_EQ(fs::path(ended.out.substr(0, ended.out.size() - 1)).filename(), name);
+            EXPECT_TRUE(fs::exists(here / name));
+        }
 }
 
 TEST_F(ForeignExport, TakesTheMomentsThatWereChosen) {
