@@ -139,8 +139,11 @@ TEST_F(FollowedJob, IsDrawnBesideTheJob) {
 
 TEST_F(FollowedJob, EndsWithTheJobThatEndsEarlyInGoodOrder) {
     job_begins("node 1 1 start");
-    Program following(follow("300"), {here.path(), {}});
+    Words words = follow("300");
+    words.emplace_back("--frames");
+    Program following(words, {here.path(), {}});
     add(0, 6);
+    ASSERT_TRUE(film_grows(following, 5)) << following.wait().err;
     job_ends(0);
     const Ended ended = following.wait();
     EXPECT_EQ(ended.status, 0) << ended.err;
@@ -150,8 +153,11 @@ TEST_F(FollowedJob, EndsWithTheJobThatEndsEarlyInGoodOrder) {
 
 TEST_F(FollowedJob, SaysWhyTheJobDied) {
     job_begins("node 1 1 start");
-    Program following(follow("300"), {here.path(), {}});
+    Words words = follow("300");
+    words.emplace_back("--frames");
+    Program following(words, {here.path(), {}});
     add(0, 6);
+    ASSERT_TRUE(film_grows(following, 5)) << following.wait().err;
     job_ends(1, "LAMMPS (29 Sep 2021)\nERROR: Lost atoms: original 1 current 0 (../thermo.cpp:438)\n");
     const Ended ended = following.wait();
     EXPECT_EQ(ended.status, 1) << ended.err;
