@@ -245,7 +245,7 @@ while kill -0 "$job" 2> /dev/null; do  # a signal ended the wait
 done
 [ "$signal" = 0 ] || [ "$status" = 0 ] || status=$((128 + signal))
 {forced}note "$status"  # so that whoever follows the dump knows
-[ "$signal" = 0 ] || {{ echo "run.sh: a signal ended the job; go on with: sh run.sh --continue" >&2; exit "$status"; }}
+[ "$signal" = 0 ] || {{ echo "run.sh: a signal ended the job; go on with: sh $0 --continue" >&2; exit "$status"; }}
 [ "$status" = 0 ] && exit 0
 error=$(error_of {deck} log.{key} out.{key})
 [ -n "$error" ] || tail -n 5 out.{key} >&2
@@ -262,7 +262,7 @@ esac
 
 constexpr const char* restart_text = R"sh(if [ "$1" = --continue ]; then
     step=$(ls {restart}.* 2>/dev/null | sed 's/.*\.//' | sort -n | tail -n 1)
-    [ -n "$step" ] || {{ echo "run.sh: there is no restart file to go on from; begin anew with: sh run.sh" >&2; exit 2; }}
+    [ -n "$step" ] || {{ echo "run.sh: there is no restart file to go on from; begin anew with: sh $0" >&2; exit 2; }}
     # What the dump has of later steps comes again; its last frame may have been cut off.
     size=$(LC_ALL=C awk -v last="$step" -v size="$(wc -c < {dump})" '
         {{ bytes += length($0) + 1 }}

@@ -92,6 +92,11 @@ TEST(StudyChartLabels, StandOnTheChartWithTheirUnits) {
         chart_commands(made.study, chart, chart_series(made.study, made.members, made.results, chart), false);
     EXPECT_THAT(commands, HasSubstr("set xlabel 'species.big.diameter (mm)'"));
     EXPECT_THAT(commands, HasSubstr("set ylabel 'kinetic energy, mean (J)'"));
+    // Two names of 29 letters side by side were cut off at the chart's edge.
+    const StudyChart& sizes = made.study.charts[0];
+    EXPECT_THAT(
+        chart_commands(made.study, sizes, chart_series(made.study, made.members, made.results, sizes), false),
+        HasSubstr("title 'species.big.diameter = 5.5'.\"\\n\".'mm'"));
     EXPECT_THAT(study_page(made.study, made.members, made.results, {made.folder.path()}, {}),
                 HasSubstr("<th>kinetic energy, mean (J)</th>"));
 }

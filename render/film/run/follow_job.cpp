@@ -60,8 +60,9 @@ FollowJob::FollowJob(const FilmRequest& request, const FollowRequest& what, RunL
     back_ = std::make_unique<ReturnedRun>(returning_->path(), scene_, plan_, facts_, request.program.version);
     const JobEnd before = job_end(what.from, facts_);
     job_ = before.job;
-    earlier_ = before.ended;
     wait_for_first();
+    // Without a moment there is nothing from which a job could go on.
+    earlier_ = before.ended && before.job == job_;
     make_folder({scene_.name + "-render", what.beside, request.out, request.force});
 }
 

@@ -56,10 +56,10 @@ class FollowJob final : public FilmRun {
     const Plan plan_;
     std::unique_ptr<ReturningFolder> returning_;
     std::unique_ptr<ReturnedRun> back_;
-    std::string job_;      // name of the job whose moments come
-    bool earlier_ = true;  // whether the status is still that of the job before the film began
-    Stopwatch idle_;       // since the last moment came
-    std::string unsound_;  // why no more moments may be taken
+    std::string job_;       // name of the job whose moments come
+    bool earlier_ = false;  // whether the status is still that of the job before the film began
+    Stopwatch idle_;        // since the last moment came
+    std::string unsound_;   // why no more moments may be taken
     std::unique_ptr<RevisitedRun> source_;
     std::int64_t opened_at_ = 0;  // number of moments that source_ knows
     Stopwatch since_opened_;

@@ -17,6 +17,7 @@
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/folder/listener.hpp"
+#include "render/app/messages/version.hpp"
 #include "render/app/verbs/report.hpp"
 #include "render/film/run/movie_run.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -330,6 +331,7 @@ TEST_F(ResumedRun, OneThatWasStoppedJustAfterPackingGoesOn) {
     FilmRequest request;
     request.out = here / "run";
     request.page = page_of_ended_run();
+    request.program = program_info();  // files name it
     StoppedAtOnce listener;
     {
         MovieRun stopped(request, listener, made, plan_with_film(made));

@@ -25,7 +25,9 @@ struct Look {
     PaperLines lines;
     double pen;  // width of curves
 };
-const Look screen{{80, 55, 60, 2}, 2};
+// Two names of the key stand side by side. With their marks and gaps, which take 14 letters each, they fill
+// the width of 80 letters.
+const Look screen{{80, 55, 26, 2}, 2};
 
 Look look_on(const Paper& paper) {
     return {lines_on(paper), 1};
