@@ -87,7 +87,7 @@ TEST_P(EarlyEnd, ARankThatIsKilledLeavesWhatThereIs) {
     ASSERT_EQ(all.size(), 2u);
     ::kill(all.front(), SIGKILL);
     EXPECT_EQ(wait(), 137);
-    EXPECT_EQ(text_of(folder_ / status_name), "137\n");
+    EXPECT_THAT(text_of(folder_ / status_name), testing::StartsWith("137\njob "));
     const BroughtBack run = back();
     EXPECT_GE(run.frames, 5);
     EXPECT_FALSE(run.whole);
@@ -97,10 +97,12 @@ TEST_P(EarlyEnd, ARankThatIsKilledLeavesWhatThereIs) {
 }
 
 // The ranks end with the script. LIGGGHTS then writes a restart file of that moment, from which it goes on.
+// It does not always come to it: its ranks may see the signal at different steps and then wait for each
+// other, until Open MPI kills them after a second.
 TEST_P(EarlyEnd, ASignalToTheScriptEndsTheRanks) {
     ::kill(job_, SIGTERM);
     EXPECT_EQ(wait(), 143);
-    EXPECT_EQ(text_of(folder_ / status_name), "143\n");
+    EXPECT_THAT(text_of(folder_ / status_name), testing::StartsWith("143\njob "));
     EXPECT_TRUE(ranks().empty());
     const HandoverFacts facts = read_handover(folder_.path());
     EXPECT_TRUE(job_end(folder_.path(), facts).ended);
@@ -110,7 +112,9 @@ TEST_P(EarlyEnd, ASignalToTheScriptEndsTheRanks) {
     for (const fs::directory_entry& one : fs::directory_iterator(folder_.path()))
         EXPECT_FALSE(one.path().filename().string().starts_with(forced_begin)) << one.path();
     const std::optional<std::int64_t> restart = newest_restart(folder_.path(), GetParam());
-    ASSERT_TRUE(restart);
+    EXPECT_EQ(restart.has_value(),
+              text_of(folder_ / output_name(GetParam())).find(forced_words) != std::string::npos);
+    if (!restart) return;
     EXPECT_GE(*restart, frames_of(GetParam(), folder_.path()).rbegin()->first);
     EXPECT_LT(*restart, 1000000);  // the deck's own are each 10^6 steps
 }
