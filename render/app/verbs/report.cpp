@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -163,8 +165,8 @@ class Report final : public Verb {
         return 0;
     }
 
-    // Refuses a folder, a file in a folder that is not there, and a name that does not end in .html, so that
-    // a slip of the user does not overwrite another kind of file.
+    // Refuses a folder, a file in a folder that is not there, a name that does not end in .html, and a page
+    // that another program made, so that a slip of the user overwrites only pages of runs.
     static void check_out(const fs::path& out) {
         check_typed("--out", out.string());
         std::error_code ignored;
@@ -177,6 +179,19 @@ class Report final : public Verb {
                                         (out / kPageName).string()));
         if (out.extension() != ".html")
             throw UserError(fmt::format("--out {}: a page's name ends in .html", out.string()));
+        if (fs::exists(out, ignored) && !is_page(out))
+            throw UserError(
+                fmt::format("--out {}: exists already and is no page of this program; choose another "
+                            "name, or remove it",
+                            out.string()));
+    }
+
+    // Whether the file's first lines name this program as what made it (page.html).
+    static bool is_page(const fs::path& file) {
+        std::string head(512, '\0');
+        std::ifstream in(file, std::ios::binary);
+        in.read(head.data(), std::ssize(head));
+        return head.find(R"(<meta name="generator" content="grainreel">)") != std::string::npos;
     }
 
     static constexpr std::size_t most_runs = 6;

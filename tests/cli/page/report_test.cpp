@@ -189,6 +189,12 @@ TEST_F(ReportProgram, TheSamePageOfTheSameRun) {
     ASSERT_EQ(program({"report", "run", "--out", "a.html"}).status, 0);
     ASSERT_EQ(program({"report", "run", "--out", "b.html"}).status, 0);
     EXPECT_TRUE(text_of(here / "a.html") == text_of(here / "b.html"));
+    EXPECT_EQ(program({"report", "run", "--out", "b.html"}).status, 0) << "a page of ours is made anew";
+    write_text(here / "b.html", "<!DOCTYPE html><title>mine</title>");
+    const Ended ended = program({"report", "run", "--out", "b.html"});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.err, HasSubstr("--out b.html: exists already and is no page of this program"));
+    EXPECT_EQ(text_of(here / "b.html"), "<!DOCTYPE html><title>mine</title>");
 }
 
 TEST_F(ReportProgram, DoesWithoutFilmAndMeasures) {
