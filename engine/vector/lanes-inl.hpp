@@ -170,7 +170,7 @@ requires(LanesOf<D>::count == 2 * kLanes) HWY_INLINE hn::Vec<D> rounded(D d, con
     return hn::Combine(d, rounded(half, at + kLanes), rounded(half, at));
 }
 template <class D>
-requires(LanesOf<D>::count == 2 * kLanes) HWY_INLINE void widen(D d, hn::Vec<D> a, double* at) {
+requires(LanesOf<D>::count == 2 * kLanes) HWY_INLINE void widen(D /*d*/, hn::Vec<D> a, double* at) {
     const hn::Half<D> half;
     widen(half, hn::LowerHalf(half, a), at);
     widen(half, hn::UpperHalf(half, a), at + kLanes);

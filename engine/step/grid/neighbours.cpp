@@ -112,7 +112,7 @@ void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose
 }
 
 GluedSearch::GluedSearch(const GluedGrains& glued, const std::vector<Face>& faces, double period)
-    : glued_(glued), period_(period) {
+    : period_(period) {
     std::vector<std::vector<std::int32_t>> members;  // one for each part
     for (std::size_t g = 0; g < glued.size(); ++g) {
         const Body& body = faces[static_cast<std::size_t>(glued.face[g])].body;

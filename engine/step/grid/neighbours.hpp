@@ -100,7 +100,6 @@ class GluedSearch {
         return apart.norm() - at_rest_[static_cast<std::size_t>(g)].radius;
     }
 
-    const GluedGrains& glued_;
     const double period_;
     double largest_ = 0;  // m, radius
     LargeArray<Place> at_rest_;

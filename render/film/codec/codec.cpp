@@ -37,7 +37,7 @@ const Codec av1{
     yuv,          no_alpha};
 const Codec ffv1{"FFV1 in Matroska",      "mkv",           "FFV1",         matroska,
                  {{"ffv1", set_up_ffv1}}, AV_PIX_FMT_BGR0, AV_PIX_FMT_BGRA};
-const Codec palette{"GIF", "gif", "GIF", gif, {{"gif", set_up_gif}}, AV_PIX_FMT_PAL8, no_alpha};
+const Codec gif_palette{"GIF", "gif", "GIF", gif, {{"gif", set_up_gif}}, AV_PIX_FMT_PAL8, no_alpha};
 const Codec raw{"raw Y4M", "y4m", "raw", y4m, {{"wrapped_avframe", set_up_raw}}, yuv, no_alpha};
 const Codec yuv_spool{"a spool of the film",
                       "spool.mkv",
@@ -101,7 +101,7 @@ const Codec& codec_of(FilmFormat format) {
         case FilmFormat::av1:
             return av1;
         case FilmFormat::gif:
-            return palette;
+            return gif_palette;
         case FilmFormat::ffv1:
             return ffv1;
         case FilmFormat::y4m:

@@ -248,14 +248,14 @@ void GifFilm::finish() {
     const std::int64_t size = write(palettes.front(), best);
     if (!cap_ || size <= *cap_) return take(best);
     const std::string in_all_colours = description_;
-    std::int64_t least = size;
+    std::int64_t smallest = size;
     for (std::size_t i = 1; i < palettes.size(); ++i) {
-        least = write(palettes[i], smaller);
-        if (least <= *cap_) return take(smaller);
+        smallest = write(palettes[i], smaller);
+        if (smallest <= *cap_) return take(smaller);
     }
     description_ = in_all_colours;
     take(best);
-    const auto cap = static_cast<double>(*cap_), needed = static_cast<double>(least);
+    const auto cap = static_cast<double>(*cap_), needed = static_cast<double>(smallest);
     throw RunError(
         fmt::format("{}: a cap of {} is too small for this film, which has {} with the fewest colours. What "
                     "fits: {}; or raise "

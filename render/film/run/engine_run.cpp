@@ -289,7 +289,7 @@ bool EngineRun::draw() {
     source.start(shots, source.segments());
     while (std::optional<Taken> picture = source.next(go_on)) {
         const auto timer = desk_.times.during("waiting for the film");
-        const FilmSegment& rule = source.segments().at(static_cast<std::size_t>(picture->segment));
+        const FilmSegment rule = source.segments().at(static_cast<std::size_t>(picture->segment));
         const FilmSegment pace = played(spanning(rule, picture->periods), scene.film.rate, source.clock());
         film_.maker().take(picture->frame, playback_caption(pace, scene.drive, scene.film.rate));
         film_times_.add(*picture->frame, 1 + holds.begin_at(picture->frame->time));

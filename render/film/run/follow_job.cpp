@@ -168,7 +168,7 @@ bool FollowJob::draw(const Taken& picture) {
         const std::int64_t pictures = std::ssize(film_schedule(scene_, plan_.clock, plan_.steps));
         film_.open(scene_, pictures, picture.frame);
     }
-    const FilmSegment& rule = source_->segments().at(static_cast<std::size_t>(picture.segment));
+    const FilmSegment rule = source_->segments().at(static_cast<std::size_t>(picture.segment));
     const FilmSegment pace = played(spanning(rule, picture.periods), scene_.film.rate, plan_.clock);
     film_.maker().take(picture.frame, playback_caption(pace, scene_.drive, scene_.film.rate));
     film_times_.add(*picture.frame, 1 + holds_.begin_at(picture.frame->time));

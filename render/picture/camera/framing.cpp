@@ -118,9 +118,9 @@ void add_sources(const FilmedScene& scene, std::vector<Vec3>& corners) {
     if (!framed || corners.empty()) return;
     const auto [low, high] = std::minmax_element(corners.begin(), corners.end(),
                                                  [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
-    const double most = high->z() + 0.5 * (high->z() - low->z());
+    const double top = high->z(), most = top + 0.5 * (top - low->z());
     const auto add = [&](const Vec3& from, const Vec3& to) {
-        if (to.z() > most && from.z() > high->z()) return;
+        if (to.z() > most && from.z() > top) return;
         for (const Vec3& corner : extent_corners({from, to})) corners.push_back(corner);
     };
     for (const Feed& feed : scene.feeds) add(feed.low, feed.high);

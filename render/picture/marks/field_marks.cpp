@@ -53,7 +53,7 @@ void FieldLayer::gather(const Frame& frame) {
 
 void FieldLayer::draw(const View& view, const Frame& frame, Shapes& on) {
     gather(frame);
-    const auto& [x, y, z] = grid_.axes;
+    const GridAxis &x = grid_.axes[0], &y = grid_.axes[1], &z = grid_.axes[2];
     const Vec3 way = way_of_container(scene_, frame);
     const auto corner = [&](std::int64_t j, std::int64_t k) {
         const Vec3 at(x.low + x.cell, y.low + static_cast<double>(j) * y.cell,

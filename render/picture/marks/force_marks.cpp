@@ -177,9 +177,9 @@ void WallForceMarks::draw_wall(const Wall& wall, const View& view, const Frame& 
     const std::optional<Vec3> acts =
         around ? std::optional(beside_bed(scene_, wall.face)) : point_of_action(face, force, moment);
     if (!acts) return;
-    const double longest = longest_arrow * extent_of(scene_).size().y();
+    const double most = longest_arrow * extent_of(scene_).size().y();
     Vec3 along = wall_force_scale(scene_) * force;
-    if (along.norm() > longest) along *= longest / along.norm();
+    if (along.norm() > most) along *= most / along.norm();
     const Vec3 tip = (around ? pose.place : origin) + *acts;
     draw_arrow(on, view.project(tip - along), view.project(tip),
                {palette_.wall_force, palette_.background, 2.4 * pen_, pen_});
