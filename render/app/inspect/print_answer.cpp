@@ -65,7 +65,8 @@ class Units {
 
   private:
     struct Seen {
-        // Of the largest numbers of the columns or rows: the largest, the sum of logarithms, and the count.
+        // Sums over the largest numbers of the columns or rows: their largest, the sum of their logarithms,
+        // and how many they are.
         double most = 0, logarithms = 0, count = 0;
     };
 

@@ -33,7 +33,7 @@ std::vector<std::string> pace_warnings(const FilmedScene& scene, const Clock& cl
 struct SegmentCount {
     std::int64_t shots = 0;
     std::int64_t moments_a_shot = 0;  // earlier steps over which each shot is exposed or averaged
-    // Of these steps, the number over which a shot is exposed; they are drawn.
+    // How many of these steps a shot is exposed over. A film draws them, but not those of a mean.
     std::int64_t exposures_a_shot = 0;
 };
 

@@ -311,7 +311,7 @@ TEST_F(FollowedJob, OneThatDiedBeforeItsFirstMomentSaysWhy) {
     EXPECT_FALSE(fs::exists(here / "film"));
 }
 
-// Whoever draws a second time has not read what the first drawing said.
+// A user who draws a second time may not have read the first message, so the reason is said each time.
 TEST_F(FollowedJob, EachVerbSaysWhyTheRunIsShort) {
     add(0, 6);
     job_ends(143);
