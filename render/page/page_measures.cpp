@@ -87,7 +87,7 @@ using Values = std::vector<double>;
 constexpr std::size_t most_cells = 4'000'000;         // cells of a record in the file
 constexpr std::size_t most_plain_bytes = 20'000'000;  // bytes of the page's fields before they are packed
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double steps = 254;
+constexpr double most_level = 254;  // highest level of a value in a byte; 255 means no value
 
 // The name of a species as it stands in the names of its variables in fields.nc (FieldsWriter).
 std::string in_variable(const std::string& name) {
@@ -228,7 +228,8 @@ void append(std::vector<std::uint8_t>& bytes, const FieldQuantity& quantity, con
     const double span = quantity.high - quantity.low;
     for (const double value : values) {
         const double share = span > 0 ? (value - quantity.low) / span : 0;
-        bytes.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(std::lround(steps * share)) : 255);
+        bytes.push_back(std::isfinite(value) ? static_cast<std::uint8_t>(std::lround(most_level * share))
+                                             : 255);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/measure/columns.hpp"
 #include "engine/plan/warnings.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -41,6 +42,18 @@ void warn_of_end(const FilmedScene& scene, Warnings& warnings) {
                         shown, scene.run.duration));
 }
 
+void warn_of_empty_plots(const FilmedScene& scene, Warnings& warnings) {
+    const std::vector<FilmPlot>& plots = scene.film.shows.plots;
+    for (std::size_t i = 0; i < plots.size(); ++i) {
+        if (plots[i].is_profile()) continue;
+        const std::string why = why_column_is_empty(scene, plots[i].column);
+        if (!why.empty())
+            warnings.add(
+                fmt::format("film.plot[{}].y", i),
+                fmt::format("the plot of '{}' stays empty: {}; plot another column", plots[i].column, why));
+    }
+}
+
 }  // namespace
 
 Plan plan_with_film(const FilmedScene& scene) {
@@ -51,6 +64,7 @@ Plan with_film_warnings(const FilmedScene& scene, Plan plan) {
     Warnings warnings(scene);
     warn_of_colours(scene, warnings);
     warn_of_end(scene, warnings);
+    warn_of_empty_plots(scene, warnings);
     for (std::string& warning : warnings.take()) plan.warnings.push_back(std::move(warning));
     return plan;
 }

@@ -412,5 +412,15 @@ TEST(PlanWarnings, AFilmThatEndsBeforeTheRun) {
                           "show the rest\n"));
 }
 
+TEST(PlanWarnings, APlotOfAColumnThatStaysEmpty) {
+    const std::string plot = "[[film.plot]]\ny = \"repose_angle_degree\"\n";
+    EXPECT_THAT(
+        warnings(wedge_text + plot, {}),
+        HasSubstr(
+            "test.toml:29:1: the plot of 'repose_angle_degree' stays empty: nothing turns in the scene; plot "
+            "another column\n"));
+    EXPECT_EQ(warnings(wedge_text + "[[film.plot]]\ny = \"bed_top_m\"\n", {}), warnings(wedge_text, {}));
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -24,6 +24,7 @@ namespace grainreel {
 struct FrameSupply;  // engine/files/frames/frame_archive.hpp
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kGlassDensity = 2500;  // kg/m3; taken where the density is not known
 
 struct WorldSpecies {
     std::string name;

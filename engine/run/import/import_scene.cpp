@@ -22,8 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kDensity = 2500;  // kg/m3, of glass, where the density is not known
-
 std::string quoted(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
@@ -65,12 +63,12 @@ std::string species_text(const ForeignArchive& archive, const ImportSurvey& surv
         text += large - small <= 1e-9 * large
                     ? fmt::format("diameter = {}\n", number(large))
                     : fmt::format("diameter = {{ min = {}, max = {} }}\n", number(small), number(large));
-        text += fmt::format("density = {}\n", number(known ? species.density : kDensity));
+        text += fmt::format("density = {}\n", number(known ? species.density : kGlassDensity));
     }
     if (guessed)
         news.push_back(
             fmt::format("{}: says no density; {} kg/m3 is taken where masses matter, --density says another",
-                        archive.path().string(), kDensity));
+                        archive.path().string(), kGlassDensity));
     return text;
 }
 

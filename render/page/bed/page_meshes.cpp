@@ -18,7 +18,7 @@ namespace {
 
 using Edge = std::array<std::int32_t, 2>;
 
-constexpr double steps = 65535;  // steps of a 16-bit number
+constexpr double most_level = 65535;  // highest level of a place in 16 bits
 constexpr std::size_t least_triangles =
     200;  // a mesh with fewer triangles after thinning is left out, since its shape is lost
 
@@ -91,7 +91,7 @@ void append_vertices(std::vector<std::uint8_t>& bytes, const std::vector<Vec3>& 
         std::uint16_t before = 0;
         for (const Vec3& vertex : vertices) {
             const auto number = static_cast<std::uint16_t>(
-                size > 0 ? std::lround(std::clamp((vertex[axis] - low) / size, 0.0, 1.0) * steps) : 0);
+                size > 0 ? std::lround(std::clamp((vertex[axis] - low) / size, 0.0, 1.0) * most_level) : 0);
             const auto change = static_cast<std::int16_t>(static_cast<std::uint16_t>(number - before));
             changes.push_back(zigzag(change));
             before = number;

@@ -138,7 +138,7 @@ class Gsd final : public FrameWriter {
     double density_of(std::uint32_t species) const {
         return species < world_.species.size() && world_.species[species].density > 0
                    ? world_.species[species].density
-                   : 1;
+                   : kGlassDensity;
     }
     void check() const {
         if (!out_) throw RunError(fmt::format("{}: cannot be written; is the disk full?", path_.string()));

@@ -11,8 +11,6 @@ namespace grainreel {
 
 namespace {
 
-constexpr double kDensity = 2500;  // kg/m3, where the density is not known
-
 // A data file with atom_style sphere (LAMMPS manual, command read_data).
 class LammpsData final : public FrameWriter {
   public:
@@ -71,7 +69,7 @@ class LammpsData final : public FrameWriter {
     double density(std::int32_t species) const {
         const auto s = static_cast<std::size_t>(species);
         return s < world_.species.size() && world_.species[s].density > 0 ? world_.species[s].density
-                                                                          : kDensity;
+                                                                          : kGlassDensity;
     }
 
     std::filesystem::path path_;
