@@ -36,7 +36,7 @@ install(FILES ${library_made}/grainreelConfig.cmake ${library_made}/grainreelCon
 
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples DESTINATION ${library_doc} COMPONENT dev)
 install(FILES ${CMAKE_SOURCE_DIR}/docs/guide/library.md DESTINATION ${library_doc} COMPONENT dev)
-install(FILES ${package_sources}/copyright DESTINATION ${library_doc} COMPONENT dev)
+install(FILES ${package_facts} DESTINATION ${library_doc} COMPONENT dev)
 
 # What a program that links the archives needs beside them.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libfmt-dev, libspdlog-dev, libtomlplusplus-dev, libnetcdf-dev, libhwy-dev, \

@@ -14,7 +14,6 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes/ DESTINATION ${CMAKE_INSTALL_DATADI
 # The program writes its manual itself, so it must be built for the machine that installs.
 install(CODE "
   execute_process(COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:grainreel> -DOUT=${package_made}
-                          -DVERSION=${PROJECT_VERSION} \"-DCONTACT=${GRAINREEL_CONTACT}\"
                           -DCHANGES=${CMAKE_SOURCE_DIR}/CHANGELOG.md -P ${package_sources}/make_manual.cmake
                   COMMAND_ERROR_IS_FATAL ANY)")
 install(DIRECTORY ${package_made}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
@@ -22,13 +21,25 @@ install(FILES ${package_made}/grainreel.bash RENAME grainreel
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${package_made}/_grainreel DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 install(FILES ${package_made}/grainreel.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
-install(FILES ${package_sources}/copyright ${package_made}/changelog.gz ${package_made}/CHANGELOG.md.gz
-              ${CMAKE_SOURCE_DIR}/README.md
+
+# Each Debian package has a changelog in the form that Debian's tools read.
+set(debian_changelog ${CMAKE_BINARY_DIR}/package_changelog/changelog)
+string(TIMESTAMP today "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(WRITE ${debian_changelog} "grainreel (${PROJECT_VERSION}) unstable; urgency=medium
+
+  * What changed: /usr/share/doc/grainreel/CHANGELOG.md.gz
+
+ -- ${GRAINREEL_CONTACT}  ${today}
+")
+execute_process(COMMAND gzip -9nf ${debian_changelog} COMMAND_ERROR_IS_FATAL ANY)
+set(package_facts ${package_sources}/copyright ${debian_changelog}.gz)
+install(FILES ${package_facts} ${package_made}/CHANGELOG.md.gz ${CMAKE_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/grainreel)
 
 include(${package_sources}/library.cmake)
-# A module of Python alone, which needs nothing until somebody imports it.
-install(FILES ${package_sources}/python/grainreel.py DESTINATION lib/python3/dist-packages)
+install(FILES ${package_sources}/python/grainreel.py DESTINATION lib/python3/dist-packages COMPONENT python)
+install(FILES ${package_facts}
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-grainreel COMPONENT python)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME grainreel)
@@ -56,19 +67,29 @@ foreach(library libavutil libavcodec libavformat libswscale libavfilter)
   string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", ${library}${major}")
 endforeach()
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libegl1, fonts-noto-core, fonts-noto-cjk, python3-xarray, lammps, openmpi-bin")
 
-# Two packages: what people run, and what programs link.
+# Three packages: what people run, what programs link, and the Python module.
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL program dev)
+set(CPACK_COMPONENTS_ALL program dev python)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME grainreel)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS
+    "libegl1, fonts-noto-core, fonts-noto-cjk, python3-grainreel, lammps, openmpi-bin")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libgrainreel-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "cmake, g++")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "grainreel")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-grainreel)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3, python3-numpy, python3-xarray, python3-netcdf4, grainreel (>= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION}")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "The library, for programs that link it.
 Static libraries, headers and CMake files of grainreel: run a scene step by
 step, read and write frames, draw them.")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module.
+Starts runs of grainreel and reads them as datasets of xarray with units:
+measures, grains, fields, contacts, pictures.")
 include(CPack)

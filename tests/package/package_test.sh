@@ -35,6 +35,23 @@ for file in include/grainreel/simulation.hpp lib/libgrainreel_engine.a lib/libgr
     [[ ! -e $here/root/usr/$file ]] || fail "$file is in the program's package"
 done
 
+# So is the Python module, which must need Python and the program.
+module=$(echo "$here"/made/python3-grainreel_*_all.deb)
+for needed in python3 python3-xarray python3-netcdf4 grainreel; do
+    dpkg-deb -f "$module" Depends | grep -qE "(^|, )$needed( |,|$)" || fail "$module does not depend on $needed"
+done
+dpkg-deb -x "$module" "$here/module"
+[[ -s $here/module/usr/lib/python3/dist-packages/grainreel.py ]] || fail "the Python module is missing"
+[[ ! -e $here/root/usr/lib/python3 ]] || fail "the program's package has files for Python"
+for name in grainreel libgrainreel-dev python3-grainreel; do
+    changes=$(find "$here"/{root,library,module} -path "*/doc/$name/changelog.gz")
+    zcat "$changes" | grep -q "^grainreel (" || fail "$name has no changelog for Debian's tools"
+done
+if command -v lintian >/dev/null; then
+    lintian --tag-display-limit 0 "$here"/made/*.deb >"$here/lintian" 2>/dev/null || true
+    ! grep '^E:' "$here/lintian" || fail "lintian finds errors"
+fi
+
 # Another working folder, and nothing in the environment.
 mkdir "$here/work"
 cd "$here/work"

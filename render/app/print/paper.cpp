@@ -137,19 +137,19 @@ void say_size_in_mm(const std::filesystem::path& svg, double width_mm) {
         throw not_gnuplots(svg);
     text.replace(begin, static_cast<std::size_t>(length),
                  fmt::format(" width=\"{:.6g}mm\" height=\"{:.6g}mm\"", width_mm, width_mm * high / wide));
-    constexpr std::string_view font = "font-family=\"DejaVu Sans\"",
+    constexpr std::string_view named = "font-family=\"DejaVu Sans\"",
                                any = "font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\"";
-    for (std::size_t at = text.find(font); at != std::string::npos; at = text.find(font, at + any.size()))
-        text.replace(at, font.size(), any);
+    for (std::size_t at = text.find(named); at != std::string::npos; at = text.find(named, at + any.size()))
+        text.replace(at, named.size(), any);
     replace_file(svg, text);
 }
 
 void say_dots(const std::filesystem::path& png, double dpi) {
     std::string bytes = bytes_of(png);
     constexpr std::size_t behind_head = 33;  // bytes of the signature and the chunk IHDR
-    constexpr double inch = 0.0254;          // m
+    constexpr double metre = 1000;           // mm
     if (bytes.size() < behind_head || bytes.compare(12, 4, "IHDR") != 0) throw not_gnuplots(png);
-    const std::string dots = big_endian(static_cast<std::uint32_t>(dpi / inch + 0.5));
+    const std::string dots = big_endian(static_cast<std::uint32_t>(dpi * metre / inch + 0.5));
     const std::string chunk = "pHYs" + dots + dots + '\1';  // dots a metre, in both directions
     constexpr std::uint32_t length = 9;
     bytes.insert(behind_head, big_endian(length) + chunk + big_endian(crc(chunk)));
