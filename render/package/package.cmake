@@ -85,6 +85,9 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3, python3-numpy, python3-xarray, python3-netcdf4, grainreel (>= ${PROJECT_VERSION})")
+# Packages before 1.0.0 had the module in the program's package.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_BREAKS "grainreel (<< 1.0.0)")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_REPLACES "grainreel (<< 1.0.0)")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION}")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "The library, for programs that link it.
 Static libraries, headers and CMake files of grainreel: run a scene step by
