@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "engine/base/vector.hpp"
+
 namespace grainreel {
 
 enum class Stream : std::uint64_t {
@@ -46,6 +48,13 @@ class Random {
     // A number in [0, 1) with 53 bits. std::uniform_real_distribution would differ between libraries.
     double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
     double between(double low, double high) { return low + (high - low) * uniform(); }
+    // A vector with each part between -reach and reach. C++ leaves open in which order arguments are
+    // evaluated; here z is drawn first and x last, as GCC did when the first packings were made.
+    Vec3 in_cube(double reach) {
+        const double z = between(-reach, reach);
+        const double y = between(-reach, reach);
+        return {between(-reach, reach), y, z};
+    }
     // A normal number with mean 0 and standard deviation 1 (Box & Muller 1958).
     double normal() {
         const double u = 1 - uniform(), v = uniform();

@@ -67,9 +67,7 @@ bool fill(const RoomOfLattice& room, double spacing, double jitter, double radiu
             for (double i = 0; i < along; ++i) {
                 const Vec3 place(x0 + i * dx, y, z);
                 if (!room.holds(place, margin)) continue;
-                const Vec3 off(random.between(-jitter, jitter), random.between(-jitter, jitter),
-                               random.between(-jitter, jitter));
-                places.push_back(place + off);
+                places.push_back(place + random.in_cube(jitter));
                 if (places.size() == count) return true;
             }
     return false;

@@ -38,7 +38,9 @@ class Room {
         const Vec3 &low = space.low(), &high = space.high();
         for (int draws = 1;; ++draws) {
             const double z = random.between(bottom, top);
-            const Vec3 centre(random.between(low.x(), high.x()), random.between(low.y(), high.y()), z);
+            // y before x on every compiler (see Random::in_cube())
+            const double y = random.between(low.y(), high.y());
+            const Vec3 centre(random.between(low.x(), high.x()), y, z);
             if (draws % kMostDraws == 0 && !simple_) margin = narrower(margin, draws);
             if (!space.holds(centre, margin)) continue;
             if (draws > kMostDraws || is_clear(centre, margin)) return centre;

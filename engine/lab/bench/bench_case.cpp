@@ -269,9 +269,10 @@ friction = 0.5)",
     bed.grains.add(0, 1, centre, big / 2, 2500);
     for (int site = 0; static_cast<int>(bed.grains.size()) < particles; ++site) {
         const Vec3 corner(-kWide / 2, -kWide / 2, 0);
-        const auto shift = [&] { return 0.5 + random.between(-0.03, 0.03); };
-        const Vec3 at = corner + kApart * Vec3(site % across + shift(), site / across % across + shift(),
-                                               site / (across * across) + shift());
+        const Vec3 shift = random.in_cube(0.03);
+        const Vec3 at = corner + kApart * Vec3(site % across + (0.5 + shift.x()),
+                                               site / across % across + (0.5 + shift.y()),
+                                               site / (across * across) + (0.5 + shift.z()));
         if ((at - centre).norm() < (big + kSmall) / 2 * 1.01) continue;
         bed.grains.add(static_cast<std::int32_t>(bed.grains.size()), 0, at, kSmall / 2, 2500);
     }
@@ -298,14 +299,13 @@ stiffness = 1000)",
     const int across = static_cast<int>(std::ceil(std::cbrt(particles)));
     Random random(1, Stream::centres);
     bed.grains.reserve(particles);
-    const auto speed = [&] { return random.between(-0.5, 0.5); };
     for (int site = 0; site < particles; ++site) {
         const Vec3 corner(-edge / 2, -edge / 2, 0);
         const Vec3 at = corner + edge / across *
                                      Vec3(site % across + 0.5, site / across % across + 0.5,
                                           site / (across * across) + 0.5);
         bed.grains.add(site, 0, at, kSmall / 2, 2500);
-        bed.grains.motion.back().velocity = Vec3(speed(), speed(), speed());
+        bed.grains.motion.back().velocity = random.in_cube(0.5);
     }
     return bed;
 }

@@ -236,9 +236,8 @@ FramePtr shaken(const Frame& bed, int k, Random& random) {
     frame.time = 0.01 * k;
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const double reach = 0.01 * frame.radius[i];
-        const auto off = [&] { return random.between(-reach, reach); };
-        frame.velocity[i] = 10 * Vec3(off(), off(), off());
-        frame.position[i] += Vec3(off(), off(), off() + 0.3 * frame.radius[0] * (k % 4));
+        frame.velocity[i] = 10 * random.in_cube(reach);
+        frame.position[i] += random.in_cube(reach) + Vec3(0, 0, 0.3 * frame.radius[0] * (k % 4));
     }
     return std::make_shared<const Frame>(std::move(frame));
 }

@@ -118,11 +118,10 @@ double share_listed(double way, int steps) {
     world.around.period = 2 * half;
     const double speed = way * world.around.skin / step;
     Random random(7, Stream::centres);
-    const auto anywhere = [&](double size) {
-        return Vec3(random.between(-size, size), random.between(-size, size), random.between(-size, size));
-    };
-    for (int k = 0; k < 300; ++k)
-        world.add(anywhere(half), anywhere(speed), {k % 5 == 0 ? bench_radius : 0.4 * bench_radius});
+    for (int k = 0; k < 300; ++k) {
+        const Vec3 velocity = random.in_cube(speed), place = random.in_cube(half);
+        world.add(place, velocity, {k % 5 == 0 ? bench_radius : 0.4 * bench_radius});
+    }
     world.add_plane(Vec3(0, 0, -half), Vec3(0, 0, 1));
     world.around.faces[0].body.velocity = {0, 0, speed};
     world.start();
