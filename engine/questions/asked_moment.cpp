@@ -113,8 +113,7 @@ std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
     if (!std::filesystem::exists(file, ignored))
         throw UserError(
             fmt::format("--frame: {} has no {}, so that the moments of its film are not known; give --at "
-                        "TIME, or run the "
-                        "scene again with output.film_moments = true",
+                        "TIME, or run the scene again with its film and output.film_moments = true",
                         run_.frames().path().string(), kFilmMoments));
     const std::int64_t frame = *request.frame;
     const auto pictures = open_frames(file, {.format = "trajectory"});

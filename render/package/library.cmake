@@ -34,8 +34,12 @@ write_basic_package_version_file(${library_made}/grainreelConfigVersion.cmake CO
 install(FILES ${library_made}/grainreelConfig.cmake ${library_made}/grainreelConfigVersion.cmake
         DESTINATION ${library_config} COMPONENT dev)
 
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples DESTINATION ${library_doc} COMPONENT dev)
-install(FILES ${CMAKE_SOURCE_DIR}/docs/guide/library.md DESTINATION ${library_doc} COMPONENT dev)
+# The same folders as in docs, so that the guide's links lead somewhere.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples DESTINATION ${library_doc} COMPONENT dev
+        PATTERN Doxyfile EXCLUDE)
+install(FILES ${CMAKE_SOURCE_DIR}/docs/guide/library.md ${CMAKE_SOURCE_DIR}/docs/guide/other-programs.md
+        DESTINATION ${library_doc}/guide COMPONENT dev)
+install(FILES ${CMAKE_SOURCE_DIR}/docs/reference/scenes.md DESTINATION ${library_doc}/reference COMPONENT dev)
 install(FILES ${package_facts} DESTINATION ${library_doc} COMPONENT dev)
 
 # What a program that links the archives needs beside them.

@@ -35,6 +35,9 @@ execute_process(COMMAND gzip -9nf ${debian_changelog} COMMAND_ERROR_IS_FATAL ANY
 set(package_facts ${package_sources}/copyright ${debian_changelog}.gz)
 install(FILES ${package_facts} ${package_made}/CHANGELOG.md.gz ${CMAKE_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/grainreel)
+# The guide and the reference without their pictures, which are larger than the program.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/guide ${CMAKE_SOURCE_DIR}/docs/reference
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/grainreel/docs FILES_MATCHING PATTERN "*.md")
 
 include(${package_sources}/library.cmake)
 install(FILES ${package_sources}/python/grainreel.py DESTINATION lib/python3/dist-packages COMPONENT python)

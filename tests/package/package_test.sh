@@ -20,7 +20,7 @@ dpkg-deb -x "$package" "$here/root"
 for file in bin/grainreel share/man/man1/grainreel.1.gz share/man/man1/grainreel-render.1.gz share/doc/grainreel/copyright \
             share/doc/grainreel/changelog.gz share/bash-completion/completions/grainreel \
             share/zsh/vendor-completions/_grainreel share/fish/vendor_completions.d/grainreel.fish \
-            share/grainreel/scenes/wedge_segregation.toml; do
+            share/grainreel/scenes/wedge_segregation.toml share/doc/grainreel/docs/reference/scenes.md; do
     [[ -s $here/root/usr/$file ]] || fail "$file is missing"
 done
 zcat "$here/root/usr/share/man/man1/grainreel-movie.1.gz" | grep -q '^.SH SYNOPSIS' || fail "no man page"
@@ -30,7 +30,8 @@ library=$(echo "$here"/made/libgrainreel-dev_*.deb)
 (($(stat -c %s "$library") < 10000000)) || fail "$library is larger than 10 MB"
 dpkg-deb -x "$library" "$here/library"
 for file in include/grainreel/simulation.hpp lib/libgrainreel_engine.a lib/libgrainreel_picture.a \
-            lib/cmake/grainreel/grainreelConfig.cmake share/doc/libgrainreel-dev/copyright; do
+            lib/cmake/grainreel/grainreelConfig.cmake share/doc/libgrainreel-dev/copyright \
+            share/doc/libgrainreel-dev/examples/shake.cpp share/doc/libgrainreel-dev/reference/scenes.md; do
     [[ -s $here/library/usr/$file ]] || fail "$file is missing"
     [[ ! -e $here/root/usr/$file ]] || fail "$file is in the program's package"
 done

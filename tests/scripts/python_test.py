@@ -113,8 +113,17 @@ def check_run(program):
     expect("is not there; run the scene with output.fields.grid" in mistake_of(lambda: run.fields), "fields are there")
     picture = grainreel.render(run, at=0.1, size="160x120", program=program)
     expect(picture.shape == (120, 160, 3) and picture.dtype == numpy.uint8 and picture.std() > 10, "no picture")
-    pale = grainreel.render(run.path, size="160x120", program=program, transparent=True)
+    pale = grainreel.render(run.path, size=(160, 120), program=program, transparent=True)
     expect(pale.shape == (120, 160, 4), f"a transparent picture has the shape {pale.shape}")
+    # A file of another program: its last moment too. A grain that moves to the other side of the picture shows which.
+    Path("two.xyz").write_text("".join(
+        f'1\nLattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:radius:R:1 Time={time}\nA 2 {y} 2 0.5\n'
+        for time, y in ((0, 0.5), (1, 3.5))))
+    last, first = (grainreel.render("two.xyz", size="160x120", program=program, words="none", **how)
+                   for how in ({}, {"at": 0}))
+    expect((last == grainreel.render("two.xyz", size="160x120", program=program, words="none", at=1)).all(),
+           "without a moment a file's last one is not drawn")
+    expect((last != first).any(), "two moments of a file have the same picture")
     run.close()
 
 
@@ -125,6 +134,15 @@ def check_mistakes(program):
     expect("unknown key 'frequencie' in [drive]" in run(drive__frequencie=3), run(drive__frequencie=3))
     expect("run" in mistake_of(lambda: grainreel.run("scene.toml", out="run", program=program)), "a run is replaced")
     expect("no such file" in mistake_of(lambda: grainreel.run("none.toml", program=program)), "no scene, no mistake")
+    render = grainreel.render
+    for says, call in (("scene: must be a path", lambda: grainreel.run(None, program=program)),
+                       ("leave one out", lambda: render("run", at=0.1, frame=1, program=program)),
+                       ("size: must be as", lambda: render("run", size=3, program=program)),
+                       ("size: must be as", lambda: render("run", size=(3, 4, 5), program=program)),
+                       ("--at must be a time", lambda: render("run", at=float("nan"), program=program)),
+                       ("run the scene again with its film", lambda: render("run", frame=1, program=program))):
+        said = mistake_of(call)
+        expect(says in said and not said.startswith("error"), f"'{says}' is expected, it says: {said}")
     expect("is not found" in mistake_of(lambda: grainreel.run("scene.toml", program="no-such-program")), "no program")
     expect("is no folder of a run" in mistake_of(lambda: grainreel.open("/")), "any folder is a run")
     for file, bytes_, says in (("measures.csv", b"step,time_s\n1,x\n", "is damaged"), ("run.json", b"{", "is damaged"),

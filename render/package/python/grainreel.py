@@ -105,7 +105,10 @@ class Run:
         try:
             data = xarray.open_dataset(file, decode_times=False)
         except Exception as error:  # whatever the reader of NetCDF throws
-            raise GrainreelError(f"{file}: cannot be read: {str(error).splitlines()[0]}") from error
+            why = (str(error).splitlines() or [""])[0]
+            if "match in any of xarray" in why:  # the readers of NetCDF are there, but none takes this file
+                why = "it is no whole NetCDF file, or python3-netcdf4 is not installed"
+            raise GrainreelError(f"{file}: cannot be read: {why}") from error
         data = data.drop_vars([each for each in data.variables if "checksum" in each])
         for each, variable in list(data.variables.items()):
             if variable.dtype.kind == "S":
@@ -176,6 +179,13 @@ def _sets(settings, more):
     return words
 
 
+def _path(value, what):
+    try:
+        return os.fspath(value)
+    except TypeError:
+        raise GrainreelError(f"{what}: must be a path, but is {value!r}") from None
+
+
 class Running:
     """The program at work. Iterating gives its progress, a dict each: stage, done from 0 to 1, time_s, and more."""
 
@@ -193,7 +203,7 @@ class Running:
             try:
                 said = json.loads(line)
             except ValueError:
-                said = {"event": "error", "text": line.strip()}
+                said = {"event": "error", "text": line.strip().removeprefix("error: ")}
             if said.get("event") == "progress":
                 yield said
             elif said.get("text"):
@@ -245,11 +255,11 @@ def start(scene, *, out=None, force=False, film=False, report=False, threads=Non
     they are made. cache: whether a packing of an earlier run is taken. settings: other values for keys of the scene,
     drive__frequency="20 Hz" for drive.frequency; set={"drive.frequency": "20 Hz"} is the same.
     """
-    words = [_program(program), "movie", scene]
+    words = [_program(program), "movie", _path(scene, "scene")]
     words += [] if film else ["--no-film"]
     words += [] if report else ["--no-report"]
     words += [] if cache else ["--no-cache"]
-    words += ["--out", out] if out is not None else []
+    words += ["--out", _path(out, "out")] if out is not None else []
     words += ["--force"] if force and out is not None else []
     words += ["--threads", str(threads)] if threads is not None else []
     return Running(words + _sets(settings, set))
@@ -263,18 +273,36 @@ def run(scene, *, progress=None, **how):
 
 def render(run, *, at=None, frame=None, size=None, program=None, set=None, **settings):
     """A picture of a moment of a run, or of another program's file, as an array: rows x columns x 3 (4 where it is
-    transparent) numbers of 0 to 255. at: s; frame: of the film; neither: the last moment. settings: keys of [film],
-    as in colour__by="speed"."""
-    run = run.path if isinstance(run, Run) else run
+    transparent) numbers of 0 to 255. at: s; frame: number of a frame of the film, whose run was made with film=True;
+    neither: the last moment. size: "640x480" or (640, 480). settings: keys of [film], as in colour__by="speed"."""
+    if at is not None and frame is not None:
+        raise GrainreelError("at and frame: both name a moment; leave one out")
+    run = _path(run, "run")
     settings = {f"film__{key}": value for key, value in settings.items()}
     with tempfile.TemporaryDirectory(prefix="grainreel-") as folder:
         words = [_program(program), "render", run, "--out", Path(folder) / "picture.png"]
         if at is None and frame is None:
-            at = float(Run(run).trajectory.time[-1])
+            at = _last_moment(run, program)
         words += ["--at", f"{at!r} s" if not isinstance(at, str) else at] if frame is None else ["--frame", str(frame)]
-        words += ["--size", size] if size is not None else []
+        words += ["--size", _size(size)] if size is not None else []
         Running(words + _sets(settings, set)).wait()
         return _read_png((Path(folder) / "picture.png").read_bytes())
+
+
+def _size(size):
+    if isinstance(size, str):
+        return size
+    try:
+        width, height = size
+    except (TypeError, ValueError):
+        raise GrainreelError(f"size: must be as \"640x480\" or (640, 480), but is {size!r}") from None
+    return f"{width}x{height}"
+
+
+def _last_moment(run, program):
+    """The time (s) of the last moment that a run, or a file of another program, has."""
+    said = Running([_program(program), "inspect", run, "--json", "--no-replay"]).wait()
+    return json.loads(said)["moment"]["time"]
 
 
 def _read_png(data):
