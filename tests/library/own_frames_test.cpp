@@ -282,13 +282,15 @@ TEST(OwnPictures, AreColouredByWhatFramesKnow) {
     char fall[64];
     std::snprintf(fall, sizeof(fall), "[0, %.17g]", std::sqrt(0.25 + 2 * 9.81 * 0.028));
     EXPECT_EQ(picture("speed"), picture("speed", fall));
-    for (const std::string by : {"vertical-velocity", "spin", "kinetic-energy"}) EXPECT_NO_THROW(picture(by)) << by;
+    for (const std::string by : {"vertical-velocity", "spin", "kinetic-energy"})
+        EXPECT_NO_THROW(picture(by)) << by;
     EXPECT_TRUE(has(complaint([&] { picture("coordination"); }), "knows no contacts"));
     EXPECT_TRUE(has(complaint([&] { picture("contact-force"); }), "knows no contacts"));
     for (const std::string by : {"displacement", "rise", R"("rise")"})
         EXPECT_TRUE(has(complaint([&] { picture(by); }), "knows no displacements")) << by;
     const gr::World& other = world;
-    EXPECT_TRUE(has(complaint([&] { gr::Painter(other, frame, {"film.force_chains=true"}); }), "no contacts"));
+    EXPECT_TRUE(
+        has(complaint([&] { gr::Painter(other, frame, {"film.force_chains=true"}); }), "no contacts"));
     EXPECT_TRUE(has(complaint([&] { picture("start-height", "3"); }), R"(["0 mm", "5 mm"])"));
 }
 

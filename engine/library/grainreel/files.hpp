@@ -105,8 +105,8 @@ void add_reader(std::shared_ptr<const FrameReader> reader);
 /// make a folder. "lammps-data", "grain-table", "stl" and "gltf" keep the last frame only.
 ///
 /// Formats keep what they have places for. Titles are in "netcdf", "lammps-data" and "blender" alone. "csv"
-/// and "xyz" write "_" for a blank in the name of a species, and "lammps-dump" and "lammps-data" write the
-/// number of a species, from 1, and not its name.
+/// and "xyz" write "_" for a blank in the name of a species. "lammps-dump", "lammps-data" and "grain-table"
+/// write the number of a species, from 1, and not its name.
 std::vector<std::string> written_formats();
 
 /// Writes frames one by one.
