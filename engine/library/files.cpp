@@ -2,6 +2,8 @@
 #include "engine/library/internal.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +21,7 @@ ReadingOptions reading_of(const ReadOptions& options) {
     reading.time_step = options.time_step;
     reading.units = options.units;
     reading.density = options.density;
+    reading.one = !options.series;
     return reading;
 }
 
@@ -99,18 +102,24 @@ std::size_t FrameFile::size() const {
 }
 
 double FrameFile::time(std::size_t index) const {
-    if (index < size()) return impl_->archive->moments()[index].time;
-    throw Error(
-        fmt::format("{}: has {} frames, and no frame {}", impl_->archive->path().string(), size(), index));
+    if (index >= size())
+        throw Error(fmt::format("{}: has {} frames, and no frame {}", impl_->archive->path().string(), size(),
+                                index));
+    return impl_->archive->world().time_known ? impl_->archive->moments()[index].time : NAN;
 }
 
 std::size_t FrameFile::nearest(double time) const {
+    if (!impl_->archive->world().time_known)
+        throw Error(
+            fmt::format("{}: says no times; choose a frame by its number", impl_->archive->path().string()));
     return impl_->archive->nearest(time);
 }
 
 Frame FrameFile::frame(std::size_t index) const {
-    time(index);
-    return outside(told([&] { return impl_->archive->grains(index); }));
+    const double at = time(index);
+    Frame frame = outside(told([&] { return impl_->archive->grains(index); }));
+    frame.time = at;
+    return frame;
 }
 
 World FrameFile::world() const {
@@ -141,42 +150,145 @@ std::vector<std::string> written_formats() {
 }
 
 struct FrameWriter::Impl {
+    Impl(std::filesystem::path path, const World& given) : file(std::move(path)), world(inside(given)) {}
+    ~Impl() { leave_nothing(); }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    std::string name() const { return file.string(); }
+    void leave_nothing();
+    void make(const std::string& format);
+    void begin(const grainreel::Frame& first);
+    void put(const grainreel::Frame& frame);
+    void check_orientation(const grainreel::Frame& frame) const;
+    void take_step(grainreel::Frame& frame);
+    void check_time(const grainreel::Frame& frame) const;
+
+    std::filesystem::path file;
     grainreel::World world;
     std::unique_ptr<grainreel::FrameWriter> writer;
-    std::string file;
-    double last = -INFINITY;
+    bool made = false, begun = false, closed = false;
+    std::int64_t frames = 0;
+    std::vector<grainreel::Frame> waiting;
+    FrameSupply supply;
+    // Of the last frame.
+    double time = 0;
+    std::int64_t step = 0;
+    bool numbered = true;  // all frames came with the step 0
 };
 
+// Removes a file without a frame, which would only be in the way of the next attempt.
+void FrameWriter::Impl::leave_nothing() {
+    writer.reset();
+    std::error_code ignored;
+    if (made && frames == 0) std::filesystem::remove_all(file, ignored);
+    made = false;
+}
+
+void FrameWriter::Impl::make(const std::string& format) {
+    std::error_code error;
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder, error))
+        throw UserError(fmt::format("{}: there is no folder {}; make it first", name(), folder.string()));
+    if (std::filesystem::exists(std::filesystem::symlink_status(file, error)))
+        throw UserError(fmt::format("{}: exists already; choose another name", name()));
+    made = true;
+    writer = frame_writer(format, file);
+}
+
+// The first frame with grains tells what all frames have. Those before it wait.
+void FrameWriter::Impl::begin(const grainreel::Frame& first) {
+    supply.orientations = !first.orientation.empty();
+    writer->begin(world, supply);
+    begun = true;
+    for (const grainreel::Frame& frame : waiting) writer->frame(frame);
+    waiting.clear();
+}
+
+void FrameWriter::Impl::put(const grainreel::Frame& frame) {
+    if (frames == 0) world.time_known = !std::isnan(frame.time);
+    if (!begun && frame.size() == 0) {
+        waiting.push_back(frame);
+        return;
+    }
+    if (!begun) begin(frame);
+    writer->frame(frame);
+}
+
+void FrameWriter::Impl::check_orientation(const grainreel::Frame& frame) const {
+    if (!begun || frame.size() == 0 || supply.orientations == !frame.orientation.empty()) return;
+    throw Error(
+        fmt::format("{}: frame {}: has {}orientations, unlike the frames before it; give them in all "
+                    "frames, or in none",
+                    name(), frames, supply.orientations ? "no " : ""));
+}
+
+void FrameWriter::Impl::check_time(const grainreel::Frame& frame) const {
+    if (frames == 0) return;
+    if (std::isnan(frame.time) != !world.time_known)
+        throw Error(fmt::format(
+            "{}: frame {}: has {}, and the frames before it have {}; give all of them a "
+            "time, or NaN if none is known",
+            name(), frames, world.time_known ? "no time" : "a time", world.time_known ? "one" : "none"));
+    if (world.time_known && !(frame.time > time))
+        throw Error(
+            fmt::format("{}: frame {}: its time is {} s, and that of the frame before it {} s; give "
+                        "frames by rising time, or NaN in all of them if no times are known",
+                        name(), frames, frame.time, time));
+}
+
+// Readers of many formats take two frames with one step for one frame, written twice.
+void FrameWriter::Impl::take_step(grainreel::Frame& frame) {
+    if (frames == 0) return;
+    if (numbered && frame.step == 0) {
+        frame.step = step + 1;
+    } else if (frame.step <= step) {
+        throw Error(
+            fmt::format("{}: frame {}: its step is {}, and that of the frame before it {}; give "
+                        "rising steps, or 0 in all frames",
+                        name(), frames, frame.step, step));
+    }
+}
+
 FrameWriter::FrameWriter(const std::filesystem::path& file, const std::string& format, const World& world)
-    : impl_(std::make_unique<Impl>()) {
-    impl_->world = inside(world);
-    impl_->file = file.string();
-    told([&] {
-        if (std::filesystem::exists(file))
-            throw UserError(fmt::format("{}: exists already; choose another name", file.string()));
-        impl_->writer = frame_writer(format, file);
-        impl_->writer->begin(impl_->world, {});
-    });
+    : impl_(std::make_unique<Impl>(file, world)) {
+    told([&] { impl_->make(format); });
 }
 FrameWriter::~FrameWriter() = default;
 FrameWriter::FrameWriter(FrameWriter&&) noexcept = default;
 FrameWriter& FrameWriter::operator=(FrameWriter&&) noexcept = default;
 
 void FrameWriter::write(const Frame& frame) {
-    if (!impl_->writer) throw Error(fmt::format("{}: is closed", impl_->file));
-    const grainreel::Frame inner =
-        inside(frame, impl_->world.species.size(), fmt::format("a frame for {}", impl_->file));
-    if (!(inner.time >= impl_->last))
-        throw Error(
-            fmt::format("{}: a frame of {} s comes after one of {} s", impl_->file, inner.time, impl_->last));
-    impl_->last = inner.time;
-    told([&] { impl_->writer->frame(inner); });
+    Impl& to = *impl_;
+    if (to.closed) throw Error(fmt::format("{}: is closed", to.name()));
+    const std::string who = fmt::format("{}: frame {}", to.name(), to.frames);
+    grainreel::Frame inner = inside(frame, to.world.species.size(), who);
+    take_poses(inner, frame.bodies.size(), to.world.bodies.size(), who);
+    if (std::isnan(inner.time) && std::isnan(inner.cycles)) inner.cycles = 0;
+    check_moment(inner, who);
+    to.check_time(inner);
+    to.check_orientation(inner);
+    to.take_step(inner);
+    told([&] { to.put(inner); });
+    to.numbered = to.numbered && frame.step == 0;
+    to.time = inner.time;
+    to.step = inner.step;
+    ++to.frames;
 }
 
 void FrameWriter::close() {
-    if (!impl_->writer) return;
-    told([&] { impl_->writer->end(); });
-    impl_->writer.reset();
+    Impl& to = *impl_;
+    if (to.closed) return;
+    to.closed = true;
+    if (to.frames == 0) {
+        to.leave_nothing();
+        throw Error(fmt::format("{}: is closed without a frame; no file is left", to.name()));
+    }
+    told([&] {
+        if (!to.begun) to.begin(to.waiting.front());
+        to.writer->end();
+    });
+    to.writer.reset();
 }
 
 }  // namespace grainreel::v1

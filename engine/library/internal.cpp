@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "engine/base/text.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/mesh/load_mesh.hpp"
 #include "grainreel/contact_law.hpp"
@@ -78,7 +79,29 @@ void check_poses(const std::vector<BodyPose>& bodies, const std::string& who) {
             throw Error(fmt::format("{}: the pose of body {} is no place and rotation", who, k));
 }
 
+void check_species(const Frame& frame, std::size_t species, const std::string& who) {
+    for (std::size_t i = 0; i < frame.id.size(); ++i)
+        if (frame.species[i] < 0 || static_cast<std::size_t>(frame.species[i]) >= species)
+            throw Error(fmt::format("{}: grain {} has the species {}; there {} {}, counted from 0", who,
+                                    frame.id[i], frame.species[i], species == 1 ? "is" : "are", species));
+}
+
 }  // namespace
+
+void take_poses(grainreel::Frame& frame, std::size_t given, std::size_t bodies, const std::string& who) {
+    if (given > 0 && given < bodies)
+        throw Error(
+            fmt::format("{}: has {} poses in `bodies`; give none, or {}: container, floor and {} walls", who,
+                        given, bodies, bodies - kFirstPlaneBody));
+    frame.bodies.resize(bodies);
+}
+
+void check_moment(const grainreel::Frame& frame, const std::string& who) {
+    grainreel::Frame moment = moment_of(frame);
+    if (std::isnan(moment.time)) moment.time = 0;
+    if (const std::optional<std::string> fault = moment_fault(moment))
+        throw Error(fmt::format("{}: {}", who, *fault));
+}
 
 Frame outside(const grainreel::Frame& from) {
     Frame frame;
@@ -101,6 +124,7 @@ Frame outside(const grainreel::Frame& from) {
 grainreel::Frame inside(const Frame& from, std::size_t species, const std::string& who) {
     check_lengths(from, who);
     check_ids(from, who);
+    check_species(from, species, who);
     grainreel::Frame frame;
     frame.step = from.step;
     frame.time = from.time;
@@ -129,7 +153,7 @@ World outside(const grainreel::World& from) {
     world.title = from.title;
     for (const WorldSpecies& one : from.species) {
         world.species.push_back(one.name);
-        world.density.push_back(one.density);
+        world.density.push_back(one.density > 0 ? one.density : kUnknown);
     }
     for (std::size_t k = kFirstPlaneBody; k < from.bodies.size(); ++k) {
         Mesh& mesh = world.walls.emplace_back();
@@ -161,6 +185,20 @@ TriangleMesh mesh_inside(const Mesh& from) {
     return mesh;
 }
 
+// Checks the last species.
+void check_species_of_world(const std::vector<WorldSpecies>& species) {
+    const WorldSpecies& last = species.back();
+    for (std::size_t s = 0; s + 1 < species.size(); ++s)
+        if (species[s].name == last.name)
+            throw Error(fmt::format("a world has two species with the name \"{}\"; give each its own",
+                                    excerpt(last.name)));
+    if (!std::isnan(last.density) && !(last.density > 0 && std::isfinite(last.density)))
+        throw Error(
+            fmt::format("the species \"{}\" of a world has the density {} kg/m3; give one above 0, or "
+                        "NaN where it is not known",
+                        excerpt(last.name), last.density));
+}
+
 }  // namespace
 
 grainreel::World inside(const World& from) {
@@ -174,6 +212,7 @@ grainreel::World inside(const World& from) {
         WorldSpecies& one = world.species.emplace_back();
         one.name = from.species[s];
         if (!from.density.empty()) one.density = from.density[s];
+        check_species_of_world(world.species);
     }
     world.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
     for (const Mesh& wall : from.walls) world.bodies.push_back({wall.name, {}, mesh_inside(wall)});

@@ -56,6 +56,13 @@ Frame outside(const grainreel::Frame& frame);
 // than `species`. who: the beginning of the message.
 grainreel::Frame inside(const Frame& frame, std::size_t species, const std::string& who);
 
+// Gives a frame of the caller as many poses as its world has bodies; further ones are not used. given: how
+// many the caller gave. Throws Error where these are some but not all.
+void take_poses(grainreel::Frame& frame, std::size_t given, std::size_t bodies, const std::string& who);
+// Throws Error where the time, the cycles or a pose is no number, or one that no run can have. A time of NaN,
+// which is not known, passes.
+void check_moment(const grainreel::Frame& frame, const std::string& who);
+
 World outside(const grainreel::World& world);
 grainreel::World inside(const World& world);
 

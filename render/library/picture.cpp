@@ -15,6 +15,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
+#include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
@@ -22,6 +23,7 @@
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/filmed_scene.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 namespace {
@@ -124,20 +126,84 @@ std::string toml_text(const std::string& text) {
     return toml + '"';
 }
 
-// Sets film and colours by the settings, which are read as keys of a scene with these species and nothing
-// else.
-void take_settings(FilmedScene& scene, const std::vector<std::string>& settings) {
+constexpr const char* settings_name = "settings of a painter";
+
+// The message without a place in the text that film_text() makes: the caller has never seen it.
+std::string without_place(const std::string& message) {
+    const std::string begin = std::string(settings_name) + ':';
+    if (!message.starts_with(begin)) return message;
+    const std::size_t end = message.find(": ");
+    return end == std::string::npos ? message : settings_name + message.substr(end);
+}
+
+// A scene as text that has these species and nothing else. Each has one grain: as high as the highest in the
+// frame, and as fast as the fastest. From these follow the ranges of colours where no setting says them.
+std::string film_text(const grainreel::Scene& scene, const grainreel::Frame& frame) {
     std::string text = fmt::format("[film]\ntitle = {}\n", toml_text(scene.title));
     text += "[container]\nshape = \"none\"\n[run]\nduration = \"1 s\"\n";
-    for (std::size_t s = 0; s < scene.species.size(); ++s)
-        text += fmt::format(
-            "[[species]]\nname = {0}\ndiameter = \"1 mm\"\ndensity = \"1 g/cm3\"\n[[grain]]\nspecies = {0}\n"
-            "position = [\"{1} m\", \"0 m\", \"0 m\"]\n",
-            toml_text(scene.species[s].name), s);
-    const FilmedScene said =
-        read_filmed_scene_text(text, "settings of a painter", Assignments(settings), measurable_in);
-    scene.film = said.film;
-    scene.colours = said.colours;
+    std::vector<double> high(scene.species.size(), 0), fast = high, large = high;
+    double largest = 1e-3;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const auto s = static_cast<std::size_t>(frame.species[i]);
+        if (s >= high.size()) continue;
+        high[s] = std::max(high[s], (frame.position[i] - frame.floor().place).z());
+        fast[s] = std::max(fast[s], frame.velocity[i].norm());
+        large[s] = std::max(large[s], 2 * frame.radius[i]);
+        largest = std::max(largest, large[s]);
+    }
+    for (std::size_t s = 0; s < scene.species.size(); ++s) {
+        const std::string name = toml_text(scene.species[s].name);
+        const double density = scene.species[s].density;
+        text += fmt::format("[[species]]\nname = {}\ndiameter = \"{} m\"\ndensity = \"{} kg/m3\"\n", name,
+                            large[s] > 0 ? large[s] : 1e-3,
+                            density > 0 && std::isfinite(density) ? density : kGlassDensity);
+        text += fmt::format("[[grain]]\nspecies = {}\nposition = [\"{} m\", \"0 m\", \"{} m\"]\n", name,
+                            2 * largest * static_cast<double>(s), high[s]);
+        text += fmt::format("velocity = [\"{} m/s\", \"0 m/s\", \"0 m/s\"]\n", fast[s]);
+    }
+    return text;
+}
+
+// Throws UserError where the film shows what frames of the library do not have. own: what the scene's film
+// shows without settings; its marks are only left out.
+void refuse_unknown(const FilmShows& shows, const FilmShows& own = {}) {
+    const auto wants = [&](bool (*needs)(const FilmShows&)) { return needs(shows) && !needs(own); };
+    const char* what = wants(needs_touches)        ? "contacts"
+                       : wants(needs_displacement) ? "displacements over a period of the drive"
+                       : wants(needs_measures)     ? "measures"
+                                                   : nullptr;
+    if (what != nullptr)
+        throw UserError(fmt::format(
+            "a painter draws frames alone and knows no {0}; take out the setting that shows {0}", what));
+}
+
+// Throws UserError for a colour of grains that needs what frames do not have. Reading the settings would ask
+// for a range or a drive first.
+void refuse_unknown_colour(const std::vector<std::string>& settings) {
+    for (const std::string& one : settings) {
+        const std::size_t is = one.find('=');
+        if (is == std::string::npos || trimmed(one.substr(0, is)) != "film.colour.by") continue;
+        FilmShows shows;
+        for (const auto& [word, value] : grain_value_words)
+            if (trimmed(one.substr(is + 1), " \t\"'") == word) shows.colour.by = value;
+        refuse_unknown(shows);
+    }
+}
+
+// Sets film and colours by the settings, which are read as keys of a scene with these species and nothing
+// else. frame: where the grains are at first.
+void take_settings(FilmedScene& scene, const grainreel::Frame& frame,
+                   const std::vector<std::string>& settings) {
+    refuse_unknown_colour(settings);
+    try {
+        const FilmedScene said = read_filmed_scene_text(film_text(scene, frame), settings_name,
+                                                        Assignments(settings), measurable_in);
+        scene.film = said.film;
+        scene.colours = said.colours;
+    } catch (const UserError& error) {
+        throw UserError(without_place(error.what()));
+    }
+    refuse_unknown(scene.film.shows);
 }
 
 // The scene for walls that the caller gives, with the boxes of its meshes filled in.
@@ -158,11 +224,21 @@ grainreel::Scene scene_with_walls(const grainreel::World& world) {
     return scene;
 }
 
-FilmedScene plain_scene(const grainreel::Scene& scene, const grainreel::Frame& frame,
-                        const std::vector<std::string>& settings) {
-    FilmedScene filmed = with_plain_film(scene, frame);
-    take_settings(filmed, settings);
+// shown: a frame whose grains all fit into the picture. first: the frame from which the ranges of colours
+// follow.
+FilmedScene plain_scene(const grainreel::Scene& scene, const grainreel::Frame& shown,
+                        const grainreel::Frame& first, const std::vector<std::string>& settings) {
+    FilmedScene filmed = with_plain_film(scene, shown);
+    take_settings(filmed, first, settings);
     return filmed;
+}
+
+// Throws Error where the text cannot be written into a picture. what: the text, for the message.
+void check_words(const std::string& text, const std::string& what) {
+    if (const std::string complaint = complaint_of_utf8(text); !complaint.empty())
+        throw Error(fmt::format("{}: {}", what, complaint));
+    if (text.find('\0') != std::string::npos)
+        throw Error(fmt::format("{}: has a byte of 0; leave it out", what));
 }
 
 // Threads of the software rasteriser: more than a few are of no use for one picture.
@@ -181,36 +257,45 @@ void Picture::write_png(const std::filesystem::path& file) const {
 }
 
 struct Painter::Impl {
-    Impl(FilmedScene filmed, std::size_t kinds)
-        : scene(std::move(filmed)), species(kinds), renderer(scene, raster_threads()) {}
+    Impl(FilmedScene filmed, std::size_t kinds, std::size_t moved)
+        : scene(std::move(filmed)), species(kinds), bodies(moved), renderer(scene, raster_threads()) {}
 
     FilmedScene scene;
-    std::size_t species;
+    std::size_t species, bodies;
     Renderer renderer;
 };
 
 Painter::Painter(const Scene& scene, const std::vector<std::string>& settings)
     : impl_(told([&] {
-          return std::make_unique<Impl>(filmed_scene(scene, settings), scene.impl().scene.species.size());
+          FilmedScene filmed = filmed_scene(scene, settings);
+          if (!settings.empty()) refuse_unknown(filmed.film.shows, filmed_scene(scene, {}).film.shows);
+          return std::make_unique<Impl>(std::move(filmed), scene.impl().scene.species.size(),
+                                        kFirstPlaneBody);
       })) {}
 
 Painter::Painter(const World& world, const Frame& first, const std::vector<std::string>& settings)
     : impl_(told([&] {
-          const grainreel::Frame frame = inside(first, world.species.size(), "the first frame of a painter");
-          FilmedScene filmed = plain_scene(scene_with_walls(inside(world)), frame, settings);
+          check_words(world.title, "the title of a world");
+          for (const std::string& name : world.species) check_words(name, "the name of a species");
+          const grainreel::World inner = inside(world);
+          const std::string who = "the first frame of a painter";
+          grainreel::Frame frame = inside(first, world.species.size(), who);
+          take_poses(frame, first.bodies.size(), inner.bodies.size(), who);
+          FilmedScene filmed = plain_scene(scene_with_walls(inner), frame, frame, settings);
           for (const Mesh& wall : world.walls)
               (wall.glass ? filmed.film.look.walls.glass : filmed.film.look.walls.solid).push_back(wall.name);
-          return std::make_unique<Impl>(std::move(filmed), world.species.size());
+          return std::make_unique<Impl>(std::move(filmed), world.species.size(), inner.bodies.size());
       })) {}
 
 Painter::Painter(const FrameFile& file, const std::vector<std::string>& settings)
     : impl_(told([&] {
           const FrameArchive& frames = *file.impl().archive;
           const grainreel::Frame last = frames.grains(frames.moments().size() - 1);
+          const grainreel::Frame first = frames.moments().size() > 1 ? frames.first_whole() : last;
           const grainreel::Scene scene = frames.scene() ? *frames.scene() : scene_with_walls(frames.world());
-          FilmedScene filmed = plain_scene(scene, last, settings);
+          FilmedScene filmed = plain_scene(scene, last, first, settings);
           const std::size_t kinds = filmed.species.size();
-          return std::make_unique<Impl>(std::move(filmed), kinds);
+          return std::make_unique<Impl>(std::move(filmed), kinds, kFirstPlaneBody);
       })) {}
 
 Painter::~Painter() = default;
@@ -218,7 +303,10 @@ Painter::Painter(Painter&&) noexcept = default;
 Painter& Painter::operator=(Painter&&) noexcept = default;
 
 Picture Painter::draw(const Frame& frame, const std::string& words) {
-    const grainreel::Frame inner = inside(frame, impl_->species, "a frame to draw");
+    const std::string who = "a frame to draw";
+    check_words(words, "the words of a picture");
+    grainreel::Frame inner = inside(frame, impl_->species, who);
+    take_poses(inner, frame.bodies.size(), std::max(impl_->bodies, inner.bodies.size()), who);
     const grainreel::Picture& drawn =
         told([&]() -> const grainreel::Picture& { return impl_->renderer.draw(inner, words); });
     return {drawn.width, drawn.height, drawn.rgba};

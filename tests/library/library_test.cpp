@@ -9,13 +9,13 @@
 #include <stdexcept>
 #include <string>
 
-#include <unistd.h>
-
 #include <grainreel/error.hpp>
 #include <grainreel/files.hpp>
 #include <grainreel/picture.hpp>
 #include <grainreel/run.hpp>
 #include <grainreel/simulation.hpp>
+
+#include "tests/library/own_folder.hpp"
 
 namespace gr = grainreel;
 
@@ -49,22 +49,7 @@ gr::Scene scene() {
     return gr::Scene::from_text(two_sizes, "two_sizes.toml");
 }
 
-class Folder {
-  public:
-    Folder()
-        : path_(std::filesystem::temp_directory_path() / ("library_test." + std::to_string(::getpid()))) {
-        std::filesystem::remove_all(path_);
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    std::filesystem::path operator/(const char* name) const { return path_ / name; }
-
-  private:
-    std::filesystem::path path_;
-};
+using Folder = OwnFolder;
 
 // A spring with a dashpot, and a number of its own: how many calls the contact has seen.
 class Counting final : public gr::ContactLaw {

@@ -3,10 +3,12 @@
 #include "engine/files/foreign/foreign_archive.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
@@ -31,6 +33,29 @@ Holds what_holds(const fs::path& file) {
     } catch (const UserError&) {
         return Holds::nothing;
     }
+}
+
+// The names of the group's files. For a list of files (.pvd, .series) these are the files that it names.
+std::set<std::string> files_behind(const FileGroup& group) {
+    std::set<std::string> names;
+    const RawFormat* format = raw_format_of(group.files.front());
+    if (format == nullptr || std::string(format->name) != "vtk-collection") {
+        for (const fs::path& file : group.files) names.insert(file.filename().string());
+        return names;
+    }
+    std::ifstream in = read_plain(group.files.front());
+    std::string text;
+    for (bool quoted = false; std::getline(in, text, '"'); quoted = !quoted)
+        if (quoted) names.insert(fs::path(text).filename().string());
+    return names;
+}
+
+// Whether both groups have the same files, or some of them, as a folder of VTK files and the lists of them.
+bool share_files(const FileGroup& a, const FileGroup& b) {
+    const std::set<std::string> names = files_behind(a), others = files_behind(b);
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return name.find('.') != std::string::npos && others.count(name) > 0;
+    });
 }
 
 bool is_passed_over(const fs::path& file) {
@@ -121,8 +146,9 @@ void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
                                     path_.string(), files.size()));
     grains_ = std::make_unique<RawSeries>(chosen->files);
     for (const FileGroup* other : others)
-        news_.push_back(
-            fmt::format("{}: holds grains too and is passed over; name it alone to read it", other->pattern));
+        if (!share_files(*chosen, *other))
+            news_.push_back(fmt::format("{}: holds grains too and is passed over; name it alone to read it",
+                                        other->pattern));
     if (options_.contacts.empty() && !contacts.empty())
         contacts_ = std::make_unique<RawSeries>(contacts.front()->files);
     if (!options_.walls.empty()) return;

@@ -97,6 +97,7 @@ void RawSeries::list_moments() {
         std::stable_sort(all.begin(), all.end(),
                          [](const auto& a, const auto& b) { return *a.first.time < *b.first.time; });
     join_equal_steps(all);
+    tell_of_equal_files();
 }
 
 void RawSeries::join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all) {
@@ -132,6 +133,26 @@ void RawSeries::join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all) {
         news_.push_back(fmt::format("{}: {} twice, as after a restart; the later frame counts",
                                     files_.front().string(),
                                     twice == 1 ? "1 moment comes" : fmt::format("{} moments come", twice)));
+}
+
+// Files of one moment are parts of it if they have different grains. If the first such files have the same
+// grains, read() takes the later one, and this says so.
+void RawSeries::tell_of_equal_files() {
+    const auto several = [](const std::vector<Part>& parts) { return parts.size() > 1; };
+    const auto found = std::find_if(parts_.begin(), parts_.end(), several);
+    if (found == parts_.end()) return;
+    const Part one = found->front(), other = found->back();
+    try {
+        const RawTable before = opened(one.file).read(one.frame).grains;
+        const RawTable after = opened(other.file).read(other.frame).grains;
+        if (before.rows == 0 || after.rows == 0 || !share_ids(before, after)) return;
+    } catch (const UserError&) {
+        return;  // whoever reads the frame is told what is wrong
+    }
+    const auto moments = std::count_if(parts_.begin(), parts_.end(), several);
+    news_.push_back(fmt::format("{}: has the moment of {} again; the later file counts{}",
+                                files_[other.file].string(), files_[one.file].string(),
+                                moments > 1 ? fmt::format(", as for {} more moments", moments - 1) : ""));
 }
 
 RawFrame RawSeries::read(std::size_t index) const {

@@ -39,6 +39,7 @@ class RawSeries {
     RawFile& opened(std::size_t file) const;
     void list_moments();
     void join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all);
+    void tell_of_equal_files();
 
     std::vector<std::filesystem::path> files_;
     const RawFormat* format_ = nullptr;

@@ -233,8 +233,12 @@ void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, Frame
     Checksum sum = begin_sum(index);
     auto variable = grain_variables.begin();
     const std::size_t places = info.capacity;
-    const Places here = places_of(index, n);
-    frame.id = those_at(read<int>(*variable++, index, places, 1, sum), here);
+    Places here = places_of(index, n);
+    const std::vector<int> ids = read<int>(*variable++, index, places, 1, sum);
+    if (info.traffic)
+        std::stable_sort(here.begin(), here.end(),
+                         [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+    frame.id = those_at(ids, here);
     frame.species = those_at(read<int>(*variable++, index, places, 1, sum), here);
     frame.radius = those_at(read<double>(*variable++, index, places, 1, sum), here);
     frame.position = vectors(read<double>(*variable++, index, places, 3, sum), here);

@@ -53,6 +53,7 @@ struct TrajectoryWriter::Impl {
     std::size_t frames = 0;
     Frame kept;                                                     // with traffic: all grains so far
     std::vector<int> present;                                       // for each of them: 1 if it is there now
+    std::vector<std::size_t> by_id;                                 // their places by rising id
     std::map<std::string, int, std::less<>> dimensions, variables;  // by name
 };
 
@@ -266,15 +267,18 @@ void TrajectoryWriter::Impl::write_grains(const Frame& f) {
     write_sum(grain_checksum, sum);
 }
 
-// Takes a frame into `kept` and `present`. A new grain gets the place after all earlier ones, because ids
-// only rise.
+// Takes a frame into `kept` and `present`. A new grain gets the place after all earlier ones. In our runs its
+// id is larger than theirs; in runs of other programs it may be between them.
 void TrajectoryWriter::Impl::keep(const Frame& frame) {
     present.assign(kept.size(), 0);
-    std::size_t at = 0;
+    std::size_t next = 0;
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        while (at < kept.size() && kept.id[at] < frame.id[i]) ++at;
-        if (at == kept.size()) add_place(frame, i);
-        GRAINREEL_CHECK(kept.id[at] == frame.id[i]);
+        while (next < by_id.size() && kept.id[by_id[next]] < frame.id[i]) ++next;
+        if (next == by_id.size() || kept.id[by_id[next]] != frame.id[i]) {
+            add_place(frame, i);
+            by_id.insert(by_id.begin() + static_cast<std::ptrdiff_t>(next), kept.size() - 1);
+        }
+        const std::size_t at = by_id[next];
         kept.position[at] = frame.position[i];
         kept.velocity[at] = frame.velocity[i];
         kept.spin[at] = frame.spin[i];
@@ -287,9 +291,7 @@ void TrajectoryWriter::Impl::keep(const Frame& frame) {
 void TrajectoryWriter::Impl::add_place(const Frame& frame, std::size_t i) {
     if (kept.size() == places)
         throw RunError(
-            fmt::format("{}: more grains came than the {} that the file has places for; give "
-                        "TrajectoryInfo a larger capacity",
-                        name, places));
+            fmt::format("{}: more grains came than the {} that the file has places for", name, places));
     kept.id.push_back(frame.id[i]);
     kept.species.push_back(frame.species[i]);
     kept.radius.push_back(frame.radius[i]);
@@ -349,10 +351,8 @@ void TrajectoryWriter::write(const Frame& frame) {
     GRAINREEL_CHECK(!impl_->info.contact_numbers || frame.contact_number.size() == frame.size());
     GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.bodies.size());
     if (frame.size() > impl_->info.capacity) {
-        throw RunError(
-            fmt::format("{}: a frame of {} grains in a file with places for {}; give TrajectoryInfo a "
-                        "larger capacity",
-                        impl_->name, frame.size(), impl_->info.capacity));
+        throw RunError(fmt::format("{}: has places for {} grains, and a frame has {}", impl_->name,
+                                   impl_->info.capacity, frame.size()));
     }
     if (impl_->info.traffic) impl_->keep(frame);
     impl_->write_pose(frame);

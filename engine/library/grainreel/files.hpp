@@ -24,6 +24,9 @@ struct ReadOptions {
     std::optional<double> time_step{};             ///< s, of one step of the file.
     std::string units{};              ///< "lj", "si", "cgs", "micro"; empty: as the file says, else SI.
     std::optional<double> density{};  ///< kg/m3.
+    /// If the name of the file has a number, as in "dump.5000", all files whose names differ only in it are
+    /// read too, as one series. The program does this without being asked.
+    bool series = false;
 };
 
 /// A file, or the folder of a run, with frames in any format that can be read. The frames come by rising
@@ -31,19 +34,23 @@ struct ReadOptions {
 class FrameFile {
   public:
     /// Your own readers are asked first whether they read the file, then those of the program; each looks at
-    /// the file's content. Throws Error where none reads the file, or where it is damaged.
+    /// the file's content. A pattern ("post/dump.*") is a series of files, and so is a folder with files of
+    /// another program. Throws Error where none reads the file, or where it is damaged.
     explicit FrameFile(const std::filesystem::path& file, const ReadOptions& options = {});
     ~FrameFile();
     FrameFile(FrameFile&&) noexcept;             ///< Moves.
     FrameFile& operator=(FrameFile&&) noexcept;  ///< Moves.
 
-    std::size_t size() const;                ///< How many frames, at least 1.
-    double time(std::size_t index) const;    ///< s, of a frame; NaN where that is not known.
-    std::size_t nearest(double time) const;  ///< The frame whose time is nearest, s.
+    std::size_t size() const;              ///< How many frames, at least 1.
+    double time(std::size_t index) const;  ///< s, of a frame; NaN where the file says no times.
+    /// The frame whose time is nearest, s. Throws Error where the file says no times.
+    std::size_t nearest(double time) const;
     /// A frame. Throws Error where there is no frame of that number, and where it is damaged.
     Frame frame(std::size_t index) const;
-    World world() const;          ///< Species and walls of triangles, as far as the file knows them.
-    bool has_velocities() const;  ///< Whether the file has velocities; else they are zero.
+    /// Species and walls, as far as the file knows them. A wall that is no mesh has no triangles; it is there
+    /// so that wall k is body 2 + k. If the format keeps no title, the title is the file's name.
+    World world() const;
+    bool has_velocities() const;            ///< Whether the file has velocities; else they are zero.
     std::vector<std::string> news() const;  ///< What to know about the file (damage, guesses), a line each.
 
     /// Writes all frames in another format, one that FrameWriter knows. The file must not exist yet.
@@ -94,22 +101,34 @@ class FrameReader {
 /// From now on FrameFile asks this reader before all others. A later reader of the same name replaces it.
 void add_reader(std::shared_ptr<const FrameReader> reader);
 
-/// Names of the formats that can be written: "lammps_dump", "xyz", "vtk", ...
+/// Names of the formats that can be written: "netcdf", "lammps-dump", "xyz", "vtk", ... "vtk" and "blender"
+/// make a folder. "lammps-data", "grain-table", "stl" and "gltf" keep the last frame only.
+///
+/// Formats keep what they have places for. Titles are in "netcdf", "lammps-data" and "blender" alone. "csv"
+/// and "xyz" write "_" for a blank in the name of a species. "lammps-dump", "lammps-data" and "grain-table"
+/// write the number of a species, from 1, and not its name.
 std::vector<std::string> written_formats();
 
 /// Writes frames one by one.
 class FrameWriter {
   public:
-    /// Throws Error where the format is none of written_formats(), or the file cannot be made or exists
-    /// already.
+    /// `file` is a folder for "vtk" and "blender". Throws Error where the format is none of
+    /// written_formats(), where the file cannot be made or exists already, and where the world is not as
+    /// World says.
     FrameWriter(const std::filesystem::path& file, const std::string& format, const World& world);
-    ~FrameWriter();                                  ///< Without close() the file may be unfinished.
+    /// Without close() the file may be unfinished. If no frame was written, no file is left.
+    ~FrameWriter();
     FrameWriter(FrameWriter&&) noexcept;             ///< Moves.
     FrameWriter& operator=(FrameWriter&&) noexcept;  ///< Moves.
 
-    /// Write frames by rising time. Throws Error where the frame is not as Frame says, or the disk is full.
+    /// Writes a frame. Each must be later than the one before it. If no times are known, all of them are NaN;
+    /// "netcdf" does not take such frames. Steps must rise, too. If `step` is 0 in all frames, the writer
+    /// numbers them 0, 1, 2, ... Either all frames with grains have orientations, or none has.
+    ///
+    /// Throws Error where a frame is not so, or not as Frame says, or where the disk is full. A frame that is
+    /// refused is not in the file; you may go on with others.
     void write(const Frame& frame);
-    /// Finishes the file. Throws Error where that fails.
+    /// Finishes the file. Throws Error where that fails, or where no frame was written.
     void close();
 
   private:

@@ -21,21 +21,23 @@ struct Pose {
 /// The grains of one moment, as arrays with one entry for each grain by rising id, and the poses of the
 /// bodies.
 struct Frame {
-    std::int64_t step = 0;  ///< Steps since the drive started.
-    double time = 0;        ///< s since the drive started; NaN where a file does not tell.
-    double cycles = 0;      ///< Periods since the drive started.
+    /// Steps since the drive started. In frames that you make, leave all of them at 0, or let them rise from
+    /// frame to frame: readers take two frames with one step for one.
+    std::int64_t step = 0;
+    double time = 0;    ///< s since the drive started; NaN where it is not known.
+    double cycles = 0;  ///< Periods since the drive started.
 
     std::vector<std::int32_t> id{};       ///< Each once, rising.
-    std::vector<std::int32_t> species{};  ///< Places in the list of species, from 0.
+    std::vector<std::int32_t> species{};  ///< Places in the list of species, counted from 0.
     std::vector<double> radius{};         ///< m.
     std::vector<Vector> position{};       ///< m.
     std::vector<Vector> velocity{};       ///< m/s.
     std::vector<Vector> spin{};           ///< rad/s.
-    std::vector<Rotation> orientation{};  ///< Empty unless the scene keeps orientations.
+    std::vector<Rotation> orientation{};  ///< Empty where it is not known, or not kept by the scene.
 
-    /// Container and floor, then the planes of the scene, then its meshes. A frame that you make has none, or
-    /// two for container and floor and then those of the walls of its World. A body without a pose is at
-    /// rest.
+    /// Container and floor, then the planes of the scene, then its meshes. A frame that you make has none, so
+    /// that all bodies are at rest, or two for container and floor and then one for each wall of its World.
+    /// With fewer it is refused. Poses beyond these are not used.
     std::vector<Pose> bodies{};
 
     /// How many grains there are.

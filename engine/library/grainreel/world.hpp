@@ -33,7 +33,7 @@ struct Mesh {
 /// The species by name, and walls. Wall k moves as Frame::bodies[2 + k] says.
 struct World {
     std::string title{};                 ///< The title of files and pictures; may be empty.
-    std::vector<std::string> species{};  ///< Names, each once.
+    std::vector<std::string> species{};  ///< Names, each once; at least one.
     std::vector<double> density{};       ///< kg/m3, of each species; empty, or NaN, where it is not known.
     std::vector<Mesh> walls{};           ///< Of triangles.
 };

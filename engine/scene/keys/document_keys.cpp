@@ -253,6 +253,14 @@ std::string in_one_line(const toml::node& node) {
     return text.str();
 }
 
+// The example of a quantity with 0 in place of its number: "0 mm" for "5 mm".
+std::string zero_of(std::string example) {
+    const std::size_t from = example.find_first_of("0123456789");
+    if (from == std::string::npos) return example;
+    const std::size_t end = std::min(example.find_first_not_of("0123456789.e", from), example.size());
+    return example.replace(from, end - from, "0");
+}
+
 }  // namespace
 
 std::optional<std::array<double, 2>> Document::interval(const std::string& path, Dimension dimension) {
@@ -263,8 +271,9 @@ std::optional<std::array<double, 2>> Document::interval(const std::string& path,
     end.dimension = dimension;
     const toml::array* array = node->as_array();
     if (array == nullptr || array->size() != 2)
-        fail(path, fmt::format("must be two values, [low, high], but is {0}; write for example [{1}, {1}]",
-                               written_value(*node), text_of(dimension).example));
+        fail(path, fmt::format("must be two values, [low, high], but is {}; write for example [{}, {}]",
+                               written_value(*node), zero_of(text_of(dimension).example),
+                               text_of(dimension).example));
     return std::array<double, 2>{number_in(path, *array->get(0), end), number_in(path, *array->get(1), end)};
 }
 

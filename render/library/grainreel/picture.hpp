@@ -33,23 +33,32 @@ struct Picture {
 ///
 /// `settings` are values for keys of [film], "film.size=640x480", "film.camera.azimuth=40",
 /// "film.words=none", and colours, "species.big.colour=#2a6fb0". docs/reference/scenes.md has all keys.
+///
+/// Frames know no contacts, no measures and no displacements over a period. Settings that show these are
+/// refused ("film.force_chains=true"); where a scene's own film shows them, they are left out. So
+/// film.colour.by can be species, speed, vertical-velocity, start-height, spin and kinetic-energy.
+/// Start-height is the height of a grain in the first frame that draw() gets, above the place of the floor
+/// (Frame::bodies[1], or z = 0); grains that come later are grey.
 class Painter {
   public:
     /// Takes the walls and the film of a scene; its frames come from Simulation, run() or a file. The picture
     /// contains all of the container. Throws Error where a setting is wrong, or no OpenGL context can be
     /// made.
     explicit Painter(const Scene& scene, const std::vector<std::string>& settings = {});
-    /// Takes walls of your own. The picture contains the walls and the grains of `first`.
+    /// Takes walls of your own. The picture contains the walls and the grains of `first`. If no setting
+    /// "film.colour.range" says the range of colours, it follows from `first`: start heights go from 0 to its
+    /// highest grain, speeds to that of a grain that is as fast as its fastest and falls from its highest.
+    /// Without such a scale (all of them at rest at z <= 0) an Error asks for the range.
     Painter(const World& world, const Frame& first, const std::vector<std::string>& settings = {});
     /// For the frames of a file: takes the walls of its scene or its world. The picture contains all that its
-    /// last frame has.
+    /// last frame has. The range of colours follows from its first frame, as above.
     explicit Painter(const FrameFile& file, const std::vector<std::string>& settings = {});
     ~Painter();
     Painter(Painter&&) noexcept;             ///< Moves.
     Painter& operator=(Painter&&) noexcept;  ///< Moves.
 
-    /// Draws a frame, with `words` in its caption. Throws Error where the frame is not as Frame says, or has
-    /// a species that the scene or world does not have.
+    /// Draws a frame, with `words` in its caption, in UTF-8. Throws Error where the frame is not as Frame
+    /// says, or has a species that the scene or world does not have.
     Picture draw(const Frame& frame, const std::string& words = "");
 
   private:

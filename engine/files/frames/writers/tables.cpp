@@ -19,7 +19,8 @@ class Csv final : public FrameWriter {
     void begin(const World& world, const FrameSupply& supply) override {
         world_ = world;
         supply_ = supply;
-        out_.text() += "time,step,id,type,species,x,y,z,radius";
+        if (world.time_known) out_.text() += "time,";
+        out_.text() += "step,id,type,species,x,y,z,radius";
         if (supply.velocities) out_.text() += ",vx,vy,vz,wx,wy,wz";
         if (supply.contact_numbers) out_.text() += ",contact_number";
         out_.text() += '\n';
@@ -29,7 +30,8 @@ class Csv final : public FrameWriter {
             std::string& text = out_.text();
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
             const auto s = static_cast<std::size_t>(frame.species[i]);
-            text += fmt::format("{},{},{},{},{},{},{},{},{}", frame.time, frame.step, frame.id[i], s + 1,
+            if (world_.time_known) text += fmt::format("{},", frame.time);
+            text += fmt::format("{},{},{},{},{},{},{},{}", frame.step, frame.id[i], s + 1,
                                 s < world_.species.size() ? one_word(world_.species[s].name) : "", x.x(),
                                 x.y(), x.z(), frame.radius[i]);
             if (supply_.velocities)

@@ -1,5 +1,14 @@
 // Writes any frames as a trajectory.nc. A run uses TrajectoryWriter itself, which can also continue a file.
+//
+// The header says how many places for grains there are. If the world does not know how many are needed, the
+// first frame tells it. A frame that needs more makes the file anew.
+#include <algorithm>
+#include <iterator>
 #include <optional>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_writer.hpp"
@@ -18,17 +27,68 @@ class Trajectory final : public FrameWriter {
         if (!world.time_known)
             throw RunError(path_.string() +
                            ": a trajectory has times, and those of these frames are not known");
-        writer_.emplace(path_, trajectory_info(world, supply));
+        info_ = trajectory_info(world, supply);
+        if (info_.capacity > 0) writer_.emplace(path_, info_);
     }
     void frame(const Frame& frame) override {
-        GRAINREEL_CHECK(writer_);
+        count(frame);
+        if (!writer_) {
+            info_.capacity = std::max<std::size_t>(1, most_);
+            writer_.emplace(path_, info_);
+        }
+        if (most_ > info_.capacity) {
+            make_again(std::max(most_, info_.capacity + info_.capacity / 4));
+            grown_ = true;
+        }
         writer_->write(frame);
     }
-    void end() override { writer_.reset(); }
+    void end() override {
+        if (grown_ && most_ < info_.capacity) make_again(most_);
+        writer_.reset();
+    }
 
   private:
+    // In a file with traffic each grain that ever was there keeps its place.
+    void count(const Frame& frame) {
+        most_ = std::max(most_, frame.size());
+        if (!info_.traffic || std::includes(seen_.begin(), seen_.end(), frame.id.begin(), frame.id.end()))
+            return;
+        std::vector<std::int32_t> all;
+        std::set_union(seen_.begin(), seen_.end(), frame.id.begin(), frame.id.end(), std::back_inserter(all));
+        seen_ = std::move(all);
+        most_ = seen_.size();
+    }
+    // Makes the file anew with that many places. If this fails, the file and its frames stay as they were.
+    void make_again(std::size_t capacity) {
+        const auto frames = static_cast<std::size_t>(writer_->frames());
+        writer_.reset();
+        std::filesystem::path other = path_;
+        other += ".again";
+        TrajectoryInfo info = info_;
+        info.capacity = capacity;
+        try {
+            TrajectoryWriter::write_again(path_, frames, other, info);
+            std::error_code error;
+            std::filesystem::rename(other, path_, error);
+            if (error)
+                throw RunError(fmt::format("{}: cannot be made anew with more places for grains: {}",
+                                           path_.string(), error.message()));
+            info_ = info;
+        } catch (...) {
+            std::error_code ignored;
+            std::filesystem::remove(other, ignored);
+            writer_.emplace(path_, info_, frames);
+            throw;
+        }
+        writer_.emplace(path_, info_, frames);
+    }
+
     std::filesystem::path path_;
+    TrajectoryInfo info_;
     std::optional<TrajectoryWriter> writer_;
+    std::size_t most_ = 0;            // places that the frames so far need
+    std::vector<std::int32_t> seen_;  // with traffic: the ids of all grains so far
+    bool grown_ = false;
 };
 
 }  // namespace
