@@ -69,7 +69,8 @@ class Simulation {
     /// there.
     explicit Simulation(const Scene& scene, const SimulationOptions& options = {});
     /// Goes on from a checkpoint of the same scene and with the same laws. Throws Error where there is no
-    /// such file, or it is no checkpoint, damaged, of another scene, or of laws with another memory.
+    /// such file, or it is no checkpoint, damaged, of another scene, or of laws that keep another number of
+    /// values. Other laws that keep as many values are not noticed.
     static Simulation from_checkpoint(const Scene& scene, const std::filesystem::path& checkpoint,
                                       const SimulationOptions& options = {});
     ~Simulation();
