@@ -2,10 +2,15 @@
 #include "engine/library/internal.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "engine/base/text.hpp"
 #include "engine/files/damage.hpp"
@@ -221,10 +226,26 @@ grainreel::World inside(const World& from) {
 
 namespace {
 
-// Whether the text before the first ": " of a message is a file, and not what else a message begins with, as
-// in "threads: must be at least 0".
+// What messages begin with that name no file but look like one: "step 7700 (0.05 s)", "a frame for
+// out/x.csv".
+constexpr std::array<std::string_view, 6> no_files{"--",    "setting ", "settings of ",
+                                                   "step ", "a frame ", "the first frame "};
+
+// Whether the text before the first ": " of a message may name a file at all.
+bool may_be_a_file(const std::string& text) {
+    return text.find_first_of("\n\"'") == std::string::npos &&
+           std::none_of(no_files.begin(), no_files.end(),
+                        [&](std::string_view start) { return text.starts_with(start); });
+}
+
+// Whether it looks like a file without a line number behind it: it has a folder, or an extension such as
+// ".csv". "threads" in "threads: must be at least 0" has neither.
 bool looks_like_a_file(const std::string& text) {
-    return text.find('/') != std::string::npos || std::filesystem::path(text).has_extension();
+    if (text.find('/') != std::string::npos) return true;
+    const std::string extension = std::filesystem::path(text).extension().string();
+    const auto is = [](int (*kind)(int)) { return [kind](unsigned char c) { return kind(c) != 0; }; };
+    return extension.size() > 1 && std::all_of(extension.begin() + 1, extension.end(), is(std::isalnum)) &&
+           std::any_of(extension.begin() + 1, extension.end(), is(std::isalpha));
 }
 
 // Takes a number such as ":12" off the end of `text`. Returns the number, or 0 where there is none.
@@ -241,9 +262,36 @@ int number_cut_off(std::string& text) {
 
 }  // namespace
 
+std::string in_words_of_library(std::string message) {
+    // Of two texts of which one begins with the other, the longer one comes first.
+    static constexpr std::pair<std::string_view, std::string_view> words[] = {
+        {", or --force to replace it when the new run is complete", ""},
+        {", or --force to replace it", ""},
+        {"; choose another with --out", "; choose another"},
+        {"write --set ", "write "},
+        {"--set ", "the setting "},
+        {"--time-step", "ReadOptions::time_step"},
+        {"--columns", "ReadOptions::columns"},
+        {"--units", "ReadOptions::units"},
+        {"--radius", "ReadOptions::radius"},
+        {"--density", "ReadOptions::density"},
+    };
+    constexpr std::string_view set = "--set ", out = "--out ";
+    if (message.starts_with(set)) message.replace(0, set.size(), "setting ");
+    if (message.starts_with(out)) {
+        message.erase(0, out.size());
+        // A name without a folder and an extension would not look like a file.
+        if (!looks_like_a_file(message.substr(0, message.find(": ")))) message.insert(0, "./");
+    }
+    for (const auto& [option, instead] : words)
+        for (std::size_t at = message.find(option); at != std::string::npos; at = message.find(option, at))
+            message.replace(at, option.size(), instead), at += instead.size();
+    return message;
+}
+
 Error::Error(const std::string& message, Kind kind) : std::runtime_error(message), kind_(kind) {
     std::string place = message.substr(0, message.find(": "));
-    if (place.size() == message.size()) return;
+    if (place.size() == message.size() || !may_be_a_file(place)) return;
     const int last = number_cut_off(place);
     const int before = last > 0 ? number_cut_off(place) : 0;
     line_ = before > 0 ? before : last;

@@ -31,15 +31,19 @@
 
 namespace grainreel::v1 {
 
+// The program's message with the words of the library in place of options of the command line: "setting
+// film.size" for "--set film.size". Options of which the library has none stay.
+std::string in_words_of_library(std::string message);
+
 // Calls a function of the program and turns its errors into those of the library.
 template <class Call>
 auto told(const Call& call) -> decltype(call()) {
     try {
         return call();
     } catch (const UserError& error) {
-        throw Error(error.what(), Error::Kind::mistake);
+        throw Error(in_words_of_library(error.what()), Error::Kind::mistake);
     } catch (const RunError& error) {
-        throw Error(error.what(), Error::Kind::failure);
+        throw Error(in_words_of_library(error.what()), Error::Kind::failure);
     } catch (const std::filesystem::filesystem_error& error) {
         throw Error(error.what(), Error::Kind::failure);
     }
@@ -66,6 +70,9 @@ void check_moment(const grainreel::Frame& frame, const std::string& who);
 World outside(const grainreel::World& world);
 grainreel::World inside(const World& world);
 
+// Throws Error where a number of threads is none that a scene file may have in run.threads.
+void check_threads(int threads);
+
 // A scene that was read, how it was read, and its plan.
 struct Scene::Impl {
     grainreel::Scene scene;
@@ -83,14 +90,15 @@ struct FrameFile::Impl {
 // contact after the other. An OwnLaw must outlive all loops that run it.
 class OwnLaw {
   public:
-    // Throws Error where the law is null, or wants to keep more numbers for a contact than it may.
-    explicit OwnLaw(std::shared_ptr<const ContactLaw> law);
+    // Throws Error where the law is null, or wants to keep more numbers for a contact than it may. `name` is
+    // its name in messages.
+    OwnLaw(std::shared_ptr<const ContactLaw> law, std::string name);
     OwnLaw(const OwnLaw&) = delete;
     OwnLaw& operator=(const OwnLaw&) = delete;
 
     const LawKernel& kernel() const { return kernel_; }
     // Throws the first exception that the law has thrown, on any thread, since the last call of this
-    // function.
+    // function. A force that is no number counts as an Error.
     void rethrow();
 
   private:
@@ -104,8 +112,10 @@ class OwnLaw {
     static void observe(const LawInput& in, const void* history, ForceChunk& out, EnergyChunk& energy);
     static void step_kinds(const LawInput& in, double* history, ForceChunk& out, bool one_kind);
     void note(std::exception_ptr thrown);
+    void check(const ContactForce& force, const Touch& touch) const;
 
     std::shared_ptr<const ContactLaw> law_;
+    std::string name_;
     int numbers_ = 0, vectors_ = 0;
     Kernel kernel_;
     std::mutex guard_;

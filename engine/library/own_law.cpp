@@ -2,6 +2,7 @@
 #include "engine/library/internal.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -105,13 +106,15 @@ int kind_of(const LawInput& in, int c, bool one_kind) {
 
 }  // namespace
 
-OwnLaw::OwnLaw(std::shared_ptr<const ContactLaw> law) : law_(std::move(law)), kernel_{} {
-    if (!law_) throw Error("a contact law of one's own is null");
+OwnLaw::OwnLaw(std::shared_ptr<const ContactLaw> law, std::string name)
+    : law_(std::move(law)), name_(std::move(name)), kernel_{} {
+    if (!law_) throw Error(fmt::format("{} is null", name_));
     numbers_ = law_->numbers();
     vectors_ = law_->vectors();
     if (numbers_ < 0 || numbers_ > most_numbers || vectors_ < 0 || vectors_ > most_vectors)
-        throw Error(fmt::format("a contact law keeps {} numbers and {} vectors; it may keep {} and {}",
-                                numbers_, vectors_, most_numbers, most_vectors));
+        throw Error(
+            fmt::format("{} keeps {} numbers and {} vectors; it may keep from 0 to {} and from 0 to {}",
+                        name_, numbers_, vectors_, most_numbers, most_vectors));
     kernel_.turns.assign(static_cast<std::size_t>(numbers_), false);
     kernel_.turns.resize(static_cast<std::size_t>(numbers_ + 3 * vectors_ + 3), true);
     kernel_.history_size = static_cast<int>(kernel_.turns.size());
@@ -169,7 +172,9 @@ void OwnLaw::step_kinds(const LawInput& in, double* history, ForceChunk& out, bo
         memory.before = velocity;
         memory.carry(own.vectors_, vector_at(in.touch->turn, c), normal);
         try {
-            put(own.law_->force(touch, memory.shown(own.numbers_, own.vectors_)), c, out);
+            const ContactForce force = own.law_->force(touch, memory.shown(own.numbers_, own.vectors_));
+            own.check(force, touch);
+            put(force, c, out);
         } catch (...) {
             own.note(std::current_exception());
         }
@@ -199,6 +204,7 @@ void OwnLaw::observe(const LawInput& in, const void* history, ForceChunk& out, E
         copy = memory;
         try {
             const ContactForce force = own.law_->force(touch, memory.shown(own.numbers_, own.vectors_));
+            own.check(force, touch);
             put(force, c, out);
             energy.stored[c] = own.law_->stored_energy(touch, copy.shown(own.numbers_, own.vectors_));
             energy.rubbing[c] = inside(force.tangential).dot(inside(touch.slip_velocity));
@@ -206,6 +212,17 @@ void OwnLaw::observe(const LawInput& in, const void* history, ForceChunk& out, E
             own.note(std::current_exception());
         }
     }
+}
+
+void OwnLaw::check(const ContactForce& force, const Touch& touch) const {
+    if (std::isfinite(force.normal) && inside(force.tangential).allFinite()) return;
+    throw Error(
+        fmt::format(
+            "{} returned a force that is no number: normal {} N, tangential ({}, {}, {}) N, for an overlap "
+            "of {:.3g} m and a closing speed of {:.3g} m/s; mend its force()",
+            name_, force.normal, force.tangential.x, force.tangential.y, force.tangential.z, touch.overlap,
+            touch.closing_speed),
+        Error::Kind::failure);
 }
 
 void OwnLaw::note(std::exception_ptr thrown) {

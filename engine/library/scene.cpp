@@ -2,6 +2,7 @@
 #include "engine/library/internal.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -27,12 +28,20 @@ Scene scene_from(const NamedText& from, const std::vector<std::string>& settings
 }
 
 std::size_t place_of_species(const grainreel::Scene& scene, const std::string& name) {
-    for (std::size_t s = 0; s < scene.species.size(); ++s)
-        if (scene.species[s].name == name) return s;
-    throw Error(fmt::format("'{}' is no species of {}", name, scene.file));
+    std::vector<std::string> names;
+    for (const Species& one : scene.species) names.push_back(one.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    throw Error(fmt::format("contact: '{}' is no species; there are {}", name, fmt::join(names, ", ")));
 }
 
 }  // namespace
+
+void check_threads(int threads) {
+    const double most = find_key("run.threads")->range.high;
+    if (threads < 0 || threads > most)
+        throw Error(fmt::format("threads: must be from 0 to {}, but is {}", most, threads));
+}
 
 Scene::Scene(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
@@ -87,8 +96,9 @@ std::string Scene::resolved() const {
 
 ContactNumbers Scene::contact(const std::string& first, const std::string& second) const {
     const std::size_t a = place_of_species(impl_->scene, first);
+    const bool wall = second.empty() || second == "wall" || second == "walls";
     const PairPlan& pair =
-        second.empty() ? impl_->plan.wall[a] : impl_->plan.between(a, place_of_species(impl_->scene, second));
+        wall ? impl_->plan.wall[a] : impl_->plan.between(a, place_of_species(impl_->scene, second));
     return {pair.loading_stiffness, pair.restitution, pair.friction, pair.effective_mass, pair.contact_time};
 }
 
@@ -112,7 +122,7 @@ struct Look {
 }  // namespace
 
 RunEnd run(const Scene& scene, const RunOptions& options) {
-    if (options.threads < 0) throw Error("threads: must be at least 0");
+    check_threads(options.threads);
     if (!std::isfinite(options.every) || options.every < 0) throw Error("every: must be at least 0 s");
     Look look{options};
     RunSceneOptions how;

@@ -9,7 +9,11 @@
 #include <fmt/format.h>
 
 #include "engine/base/text.hpp"
+#include "engine/library/new_grains.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/run/simulation/simulation.hpp"
+#include "engine/start/restart.hpp"
+#include "engine/state/checkpoint_file.hpp"
 #include "grainreel/simulation.hpp"
 
 namespace grainreel::v1 {
@@ -21,10 +25,11 @@ class LawChooser {
     LawChooser(const grainreel::Scene& scene, Plan& plan) : scene_(scene), plan_(plan) {}
 
     void choose(const LawChoice& choice, const LawKernel& law) {
-        const std::vector<bool> first = named(choice.first);
-        const bool walls = choice.second.empty() || choice.second == "walls";
+        const std::vector<bool> first = named(choice.first, "first");
+        const bool only_walls = choice.second == "wall" || choice.second == "walls";
+        const bool walls = choice.second.empty() || only_walls;
         const std::vector<bool> second =
-            choice.second == "walls" ? std::vector<bool>(first.size(), false) : named(choice.second);
+            only_walls ? std::vector<bool>(first.size(), false) : named(choice.second, "second");
         const std::size_t n = first.size();
         for (std::size_t a = 0; a < n; ++a)
             for (std::size_t b = 0; b < n; ++b)
@@ -45,7 +50,8 @@ class LawChooser {
         if (pair.model.tangential == TangentialLaw::none)
             pair.model.tangential = TangentialLaw::linear_spring;
     }
-    std::vector<bool> named(const std::string& name) const {
+    // member: that of LawChoice from which the name comes.
+    std::vector<bool> named(const std::string& name, const std::string& member) const {
         std::vector<bool> chosen;
         std::vector<std::string> names;
         for (const Species& one : scene_.species) {
@@ -53,13 +59,20 @@ class LawChooser {
             names.push_back(one.name);
         }
         if (std::find(chosen.begin(), chosen.end(), true) != chosen.end()) return chosen;
-        throw Error(fmt::format("a contact law is chosen for '{}'; the species are {}", name,
-                                fmt::join(names, ", ")));
+        throw Error(fmt::format("a contact law is chosen for {} = \"{}\"; it may be {}{}, or empty for any",
+                                member, name, fmt::join(names, ", "), member == "second" ? ", walls" : ""));
     }
 
     const grainreel::Scene& scene_;
     Plan& plan_;
 };
+
+// The name of a law in messages: "law 0 of SimulationOptions::laws (of "big" and "walls")".
+std::string name_of_law(std::size_t number, const LawChoice& choice) {
+    const auto named = [](const std::string& name) { return name.empty() ? "any" : '"' + name + '"'; };
+    return fmt::format("law {} of SimulationOptions::laws (of {} and {})", number, named(choice.first),
+                       named(choice.second));
+}
 
 double share_of(const PackingProgress& progress) {
     return std::clamp(progress.done, 0.0, 1.0);
@@ -70,14 +83,25 @@ double share_of(const PackingProgress& progress) {
 struct Simulation::Impl {
     Impl(const v1::Scene& read, const SimulationOptions& options)
         : scene(read), inner(read.impl().scene), plan(read.impl().plan) {
-        if (options.threads < 0) throw Error("threads: must be at least 0");
+        check_threads(options.threads);
         inner.run.threads = options.threads > 0 ? options.threads : inner.run.threads;
         LawChooser chooser(inner, plan);
         for (const LawChoice& choice : options.laws)
-            chooser.choose(choice, laws.emplace_back(choice.law).kernel());
+            chooser.choose(choice, laws.emplace_back(choice.law, name_of_law(laws.size(), choice)).kernel());
     }
     void rethrow() {
         for (OwnLaw& law : laws) law.rethrow();
+    }
+    // Calls a function of the program, in which laws of the caller may act. What a law has thrown goes before
+    // what the program says, because the program sees only what came of it.
+    template <class Call>
+    auto with_laws(const Call& call) -> decltype(call()) {
+        try {
+            return told(call);
+        } catch (const Error&) {
+            rethrow();
+            throw;
+        }
     }
 
     v1::Scene scene;
@@ -104,13 +128,42 @@ Simulation::Simulation(const Scene& scene, const SimulationOptions& options)
         [&] { return std::make_unique<grainreel::Simulation>(m.inner, m.plan, engine_threads(m.inner)); });
 }
 
+namespace {
+
+// The run at a checkpoint. The program's messages name the scene's key start.file, which a user of the
+// library has not written; here they begin with the checkpoint's name.
+std::unique_ptr<grainreel::Simulation> at_checkpoint(const grainreel::Scene& scene, const Plan& plan,
+                                                     const std::filesystem::path& file) {
+    const std::string name = file.string();
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored))
+        throw Error(fmt::format("{}: there is no such file", name));
+    if (!is_checkpoint(file))
+        throw Error(
+            fmt::format("{}: is no checkpoint; give a file that save_checkpoint() or a run wrote", name));
+    try {
+        return std::make_unique<grainreel::Simulation>(
+            grainreel::Simulation::at_checkpoint(scene, plan, file, engine_threads(scene)));
+    } catch (const UserError& error) {
+        grainreel::Scene there = scene;
+        there.start.file = name;
+        const std::string what = error.what(), damaged = damaged_checkpoint(there).what();
+        if (what == damaged && is_whole_checkpoint(file))
+            throw Error(
+                fmt::format("{}: its contacts do not fit the contact laws of this simulation; give the same "
+                            "SimulationOptions::laws as in the run that wrote it",
+                            name));
+        const std::string start = fmt::format("{}: '{}' ", scene.where("start.file"), name);
+        throw Error(what.starts_with(start) ? fmt::format("{}: {}", name, what.substr(start.size())) : what);
+    }
+}
+
+}  // namespace
+
 Simulation Simulation::from_checkpoint(const Scene& scene, const std::filesystem::path& checkpoint,
                                        const SimulationOptions& options) {
     auto impl = std::make_unique<Impl>(scene, options);
-    impl->running = told([&] {
-        return std::make_unique<grainreel::Simulation>(grainreel::Simulation::at_checkpoint(
-            impl->inner, impl->plan, checkpoint, engine_threads(impl->inner)));
-    });
+    impl->running = told([&] { return at_checkpoint(impl->inner, impl->plan, checkpoint); });
     impl->packed = true;
     return Simulation(std::move(impl));
 }
@@ -118,7 +171,7 @@ Simulation Simulation::from_checkpoint(const Scene& scene, const std::filesystem
 bool Simulation::pack(const std::function<bool(double)>& watcher) {
     Impl& m = *impl_;
     if (m.packed) return true;
-    const PackingResult result = told([&] {
+    const PackingResult result = m.with_laws([&] {
         return m.running->pack([&](const PackingProgress& progress) {
             m.rethrow();
             return !watcher || watcher(share_of(progress));
@@ -129,12 +182,24 @@ bool Simulation::pack(const std::function<bool(double)>& watcher) {
     return m.packed;
 }
 
+namespace {
+
+// The last step for which a double still holds every step before it: 2^53.
+constexpr double most_steps = 9007199254740992.0;
+
+}  // namespace
+
 double Simulation::advance(double until) {
     Impl& m = *impl_;
     if (!std::isfinite(until)) throw Error(fmt::format("advance({}): is no time", until));
+    const double target = std::round(until / m.plan.clock.step);
+    if (target > most_steps)
+        throw Error(
+            fmt::format("advance({}): is later than {:.4g} s, after which steps of {:.4g} s cannot be "
+                        "counted",
+                        until, most_steps * m.plan.clock.step, m.plan.clock.step));
     pack();
-    const auto target = static_cast<std::int64_t>(std::llround(until / m.plan.clock.step));
-    if (target > step()) advance_steps(target - step());
+    if (target > static_cast<double>(step())) advance_steps(static_cast<std::int64_t>(target) - step());
     return time();
 }
 
@@ -142,7 +207,11 @@ void Simulation::advance_steps(std::int64_t steps) {
     Impl& m = *impl_;
     if (steps < 0) throw Error(fmt::format("advance_steps({}): must be at least 0", steps));
     pack();
-    told([&] { m.running->advance(m.running->step() + steps); });
+    if (static_cast<double>(step()) + static_cast<double>(steps) > most_steps)
+        throw Error(
+            fmt::format("advance_steps({}): steps can be counted up to {:.4g}, and the run is at step {}",
+                        steps, most_steps, step()));
+    m.with_laws([&] { m.running->advance(m.running->step() + steps); });
     m.rethrow();
 }
 
@@ -184,25 +253,45 @@ std::vector<Contact> Simulation::contacts() const {
 std::vector<Measure> Simulation::measures() const {
     impl_->need_grains();
     const Measures row = impl_->running->measures();
+    impl_->rethrow();
     std::vector<Measure> measures;
     for (std::size_t k = 0; k < row.names().size(); ++k)
         measures.push_back({row.names()[k], row.values()[k]});
     return measures;
 }
 
+namespace {
+
+// Says what to write for a column that an instrument would give, and else names the nearest column.
+Error no_column(const grainreel::Scene& scene, const std::vector<std::string>& there,
+                const std::string& name) {
+    const std::string what = fmt::format("'{}' is no column of this scene's measures", name);
+    for (const MeasureColumn& column : measure_columns(scene))
+        if (column.name == name && !column.instrument.empty())
+            return Error(
+                fmt::format("{}; the instrument {} gives it: the scene needs output.instruments = [\"{}\"]",
+                            what, column.instrument, column.instrument));
+    const std::optional<std::string> meant = nearest_name(name, there);
+    return Error(meant ? fmt::format("{}; '{}' is one", what, *meant) : what);
+}
+
+}  // namespace
+
 double Simulation::measure(const std::string& column) const {
     impl_->need_grains();
     const std::vector<std::string>& names = impl_->running->measured();
-    if (std::find(names.begin(), names.end(), column) != names.end()) return impl_->running->measure(column);
-    const std::optional<std::string> meant = nearest_name(column, names);
-    throw Error(fmt::format("'{}' is no column of this scene's measures{}", column,
-                            meant ? fmt::format("; '{}' is one", *meant) : ""));
+    if (std::find(names.begin(), names.end(), column) == names.end())
+        throw no_column(impl_->inner, names, column);
+    const double value = impl_->running->measure(column);
+    impl_->rethrow();
+    return value;
 }
 
 std::vector<Field> Simulation::fields() const {
     impl_->need_grains();
     const std::vector<const FieldSet*> sets = impl_->running->field_sets();
     std::vector<FieldValues> values = impl_->running->fields();
+    impl_->rethrow();
     std::vector<Field> fields;
     for (std::size_t s = 0; s < sets.size(); ++s) {
         for (std::size_t f = 0; f < sets[s]->fields.size(); ++f) {
@@ -224,51 +313,13 @@ std::uint64_t Simulation::state_hash() const {
     return impl_->running->state_hash();
 }
 
-namespace {
-
-grainreel::NewGrain grain_inside(const NewGrain& grain, const grainreel::Scene& scene) {
-    if (grain.species < 0 || grain.species >= std::ssize(scene.species))
-        throw Error(
-            fmt::format("a new grain is of species {}; there are {}", grain.species, scene.species.size()));
-    const Species& kind = scene.species[static_cast<std::size_t>(grain.species)];
-    const bool fits = grain.radius >= 0.5 * kind.diameter.smallest * (1 - 1e-9) &&
-                      grain.radius <= 0.5 * kind.diameter.largest * (1 + 1e-9);
-    if (!fits)
-        throw Error(fmt::format("a new grain has a radius of {} m; those of {} have {} to {} m", grain.radius,
-                                kind.name, 0.5 * kind.diameter.smallest, 0.5 * kind.diameter.largest));
-    grainreel::NewGrain inner;
-    inner.species = grain.species;
-    inner.radius = grain.radius;
-    inner.density = grain.density > 0 ? grain.density : kind.density;
-    inner.position = inside(grain.position);
-    inner.velocity = inside(grain.velocity);
-    inner.spin = inside(grain.spin);
-    if (!inner.position.allFinite() || !inner.velocity.allFinite() || !inner.spin.allFinite() ||
-        !std::isfinite(inner.density))
-        throw Error("a new grain has a number that is none");
-    return inner;
-}
-
-void check_is_free(const grainreel::NewGrain& grain, const Vec3& other, double radius) {
-    if ((grain.position - other).norm() >= grain.radius + radius) return;
-    throw Error(fmt::format("a new grain at ({:.4g}, {:.4g}, {:.4g}) m touches another; choose a free place",
-                            grain.position.x(), grain.position.y(), grain.position.z()));
-}
-
-}  // namespace
-
 std::int32_t Simulation::insert(const std::vector<NewGrain>& grains) {
     Impl& m = *impl_;
     m.need_grains();
     const grainreel::Frame now = m.running->frame();
+    RoomForGrains room(m.inner, m.plan, now);
     std::vector<grainreel::NewGrain> inner;
-    for (const NewGrain& grain : grains) {
-        inner.push_back(grain_inside(grain, m.inner));
-        for (std::size_t i = 0; i < now.size(); ++i)
-            check_is_free(inner.back(), now.position[i], now.radius[i]);
-        for (std::size_t i = 0; i + 1 < inner.size(); ++i)
-            check_is_free(inner.back(), inner[i].position, inner[i].radius);
-    }
+    for (const NewGrain& grain : grains) inner.push_back(room.take(grain));
     return told([&] { return m.running->insert(inner); });
 }
 
@@ -284,6 +335,10 @@ void Simulation::remove(const std::vector<std::int32_t>& ids) {
 
 void Simulation::save_checkpoint(const std::filesystem::path& file) const {
     impl_->need_grains();
+    std::error_code ignored;
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder, ignored))
+        throw Error(fmt::format("{}: there is no folder {}; make it first", file.string(), folder.string()));
     told([&] { impl_->running->save_checkpoint(file); });
 }
 

@@ -197,9 +197,9 @@ bool is_within(const Surface& surface, const Vec3& place) {
     return hits.size() % 2 == 1;
 }
 
-// Says why no grain can lie at this place, at rest; empty where one can. A grain may lie in the vessel's
-// room, around a vessel that is open, and outside any other closed mesh.
-std::string forbidden(const Scene& scene, const MeshWall& mesh, const Vec3& place) {
+}  // namespace
+
+std::string why_no_grain_at(const Scene& scene, const MeshWall& mesh, const Vec3& place) {
     if (!mesh.surface->facts().closed()) return "";
     const bool vessel = scene.vessel() != nullptr && scene.vessel()->name == mesh.name;
     if (vessel && scene.container.room->holds(place)) return "";
@@ -208,12 +208,14 @@ std::string forbidden(const Scene& scene, const MeshWall& mesh, const Vec3& plac
     return fmt::format("lies outside the vessel \"{}\"", mesh.name);
 }
 
+namespace {
+
 void check_meshes(const Scene& scene, const std::vector<MeshWall>& meshes, const Grains& grains,
                   std::size_t i) {
     const Place& grain = grains.place[i];
     for (const MeshWall& mesh : meshes) {
         const Vec3 place = mesh.body.at(Pose()).at_rest(grain.position);
-        if (const std::string why = forbidden(scene, mesh, place); !why.empty())
+        if (const std::string why = why_no_grain_at(scene, mesh, place); !why.empty())
             fail(scene, grains.id[i], why);
         const auto nearest = mesh.surface->nearest(place, (1 - kTooDeep) * grain.radius);
         if (!nearest) continue;

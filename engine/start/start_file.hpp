@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "engine/scene/scene.hpp"
@@ -37,6 +38,11 @@ void check_grains_match(const Scene& scene, const Grains& grains);
 
 // Throws UserError where grains have other masses than their species.
 void check_masses(const Scene& scene, const Grains& grains);
+
+// Says why no grain can lie at this place (m) in the frame of a mesh: "lies inside the mesh \"drum\"". Empty
+// where one can: a grain may lie in the vessel's room, around a vessel that is open, and outside any other
+// closed mesh.
+std::string why_no_grain_at(const Scene& scene, const MeshWall& mesh, const Vec3& place);
 
 // Throws UserError where a grain is outside the container at rest, in a closed mesh, or so near to a mesh
 // that it overlaps it by more than a third of its radius.

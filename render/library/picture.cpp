@@ -107,9 +107,13 @@ namespace {
 
 FilmedScene filmed_scene(const Scene& scene, const std::vector<std::string>& settings) {
     const Scene::Impl& read = scene.impl();
-    std::vector<std::string> all = read.settings;
+    Assignments all;
+    // A painter's setting may take the place of a key of the scene's settings that it excludes. The two have
+    // places of different kinds, which tells the reader so (Document::set).
+    for (const std::string& one : read.settings)
+        all.push_back({one, "the scene's setting " + Assignment(one).key()});
     all.insert(all.end(), settings.begin(), settings.end());
-    return read_filmed_scene_text(read.text, read.file, Assignments(all), measurable_in);
+    return read_filmed_scene_text(read.text, read.file, all, measurable_in);
 }
 
 // A TOML string: quotes, backslashes and control characters escaped.

@@ -335,6 +335,15 @@ TEST(Messages, LawsThatDoNotGoTogether) {
               "[ 1, 2 ]; write for example [[\"0.1 m/s\", 0.95], [\"2 m/s\", 0.8]]");
 }
 
+TEST(Messages, TwoSetKeysThatExcludeEachOther) {
+    EXPECT_EQ(
+        complaint(wedge_text, {"drive.g_level=2", "drive.amplitude=1 mm"}),
+        "--set drive.amplitude: 'drive.amplitude' and 'drive.g_level' exclude each other, and both are set "
+        "(--set drive.g_level); leave out one");
+    // The same without --set: a key of the file gives way, and so does one that is set twice.
+    EXPECT_EQ(read_text(wedge_text, {"drive.amplitude=1 mm", "drive.amplitude=2 mm"}).drive.amplitude, 0.002);
+}
+
 TEST(Messages, AlwaysHaveALine) {
     const std::string species = "[[species]]\nname = \"a\"\ncount = 3\ndiameter = 0.005\ndensity = 2500\n";
     EXPECT_EQ(complaint(species),

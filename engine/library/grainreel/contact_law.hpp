@@ -60,7 +60,9 @@ class ContactLaw {
     /// The force at the end of a step. The function is called from several threads at once. If runs are to be
     /// alike, its result must depend on nothing but its arguments. To read the present forces without a step,
     /// the program calls it with slip and step zero and a copy of the memory. An exception that it throws
-    /// comes out of Simulation's pack(), advance() or contacts(), perhaps only after further steps.
+    /// comes out of the function of Simulation that was called (pack(), advance(), contacts(), measures() and
+    /// the like), perhaps only after further steps. The same happens if a number of the force is NaN or
+    /// infinite: an Error (failure) then names the law by its place in SimulationOptions::laws.
     virtual ContactForce force(const Touch& touch, ContactMemory memory) const = 0;
 
     /// J, the energy that the contact would give back if it were unloaded now. Without an override it is NaN,

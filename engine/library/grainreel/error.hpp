@@ -21,7 +21,8 @@ class [[gnu::visibility("default")]] Error : public std::runtime_error {
     };
 
     /// An error of your own, for example from your reader. If the message begins with a place,
-    /// "file:line:column: ", that place is taken from it.
+    /// "file:line:column: ", "file:line: " or "file: ", that place is taken from it. In the last form the
+    /// name must have a folder or an extension, so that it is known as a file.
     explicit Error(const std::string& message, Kind kind = Kind::mistake);
 
     Kind kind() const noexcept {
@@ -29,7 +30,8 @@ class [[gnu::visibility("default")]] Error : public std::runtime_error {
     }  ///< What kind of error it is.
     const std::string& file() const noexcept {
         return file_;
-    }  ///< The file that the error is about; empty: none is named.
+    }  ///< The file with whose name the message begins; empty if it begins with anything else, such as a
+       ///< setting ("setting film.size: ..."), an argument or a time step.
     int line() const noexcept {
         return line_;
     }  ///< The line in that file, from 1; 0: none is named.

@@ -12,10 +12,10 @@ namespace grainreel::v1 {
 
 /// How a scene is run in one call.
 struct RunOptions {
-    /// Where the files go, new or empty: scene.toml, trajectory.nc, measures.csv and what else the scene asks
-    /// for. Empty: nothing is written.
+    /// Where the files go, a folder that is new or empty: scene.toml, trajectory.nc, measures.csv and what
+    /// else the scene asks for. An older run is never replaced. With an empty name nothing is written.
     std::filesystem::path folder{};
-    int threads = 0;   ///< As SimulationOptions::threads.
+    int threads = 0;   ///< As SimulationOptions::threads, up to 1024.
     double every = 0;  ///< s between the frames that `look` gets; 0: none.
     /// Is called with each of these frames, on the calling thread. If it returns false, the run ends there,
     /// and its files are completed.

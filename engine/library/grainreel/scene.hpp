@@ -29,7 +29,10 @@ class Scene {
   public:
     /// Reads a scene file. If there is no such file, reads the scene of that name that is shipped with the
     /// program ("wedge_segregation"). `settings` take precedence over the file: "run.duration=2 s",
-    /// "species.big.count=30". Throws Error at the first mistake, with file, line and column.
+    /// "species.big.count=30". A setting removes a key of the file that it excludes (drive.amplitude removes
+    /// drive.g_level); of two settings to one key the later one counts. Throws Error at the first mistake,
+    /// with file, line and column, or with "setting KEY" in their place; two settings that exclude each other
+    /// are one.
     static Scene from_file(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
     /// The same from text. `file` is its name in messages, and paths in the scene are relative to its folder.
     static Scene from_text(std::string_view text, const std::filesystem::path& file = "scene.toml",
@@ -46,8 +49,8 @@ class Scene {
     std::vector<std::string> walls() const;     ///< Names; wall w is -1 - w in Contact::second.
     std::vector<std::string> warnings() const;  ///< What can be run but may be a mistake; one line for each.
 
-    /// The contact between two species. If `second` is empty, the contact between `first` and the walls that
-    /// are not meshes. Throws Error where there is no such species.
+    /// The contact between two species. If `second` is empty, "walls" or "wall", the contact between `first`
+    /// and the walls that are not meshes. Throws Error where there is no such species.
     ContactNumbers contact(const std::string& first, const std::string& second = "") const;
 
     /// The scene as TOML, with all values that the program chose.

@@ -27,9 +27,10 @@ class Document {
     Document(std::string_view text, std::string file, const std::vector<Key>& keys = scene_keys());
 
     // Applies one assignment from the command line. A key that excludes others (g_level and amplitude)
-    // removes them. A key whose value changes removes the keys that belong to the old value (as a colour map
-    // belongs to the quantity it shows). [] and {} remove a list of tables and a table. Throws UserError when
-    // the place does not exist or the text is not UTF-8.
+    // removes them from what the file says. Throws UserError where such a key was set by an assignment of the
+    // same source: the command line, or one file. A key whose value changes removes the keys that belong to
+    // the old value (as a colour map belongs to the quantity it shows). [] and {} remove a list of tables and
+    // a table. Throws UserError when the place does not exist or the text is not UTF-8.
     void set(const Assignment& assignment);
 
     // Takes a table out of the document and returns it as TOML, ready to stand in a scene file; empty where
@@ -100,6 +101,7 @@ class Document {
     toml::node* step_into(toml::node& node, const std::string& part, const std::string& by);
     std::pair<toml::table*, std::string> table_for(const std::vector<std::string>& parts, const Location& by);
     void remove(toml::table& table, const std::string& table_path, std::string_view key);
+    void remove_rivals(toml::table& table, const std::string& path, const std::string& place);
     void take_back(toml::table& table, const std::string& table_path, const std::string& key,
                    const toml::node& value);
 

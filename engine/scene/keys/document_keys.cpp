@@ -142,6 +142,30 @@ void Document::take_back(toml::table& table, const std::string& table_path, cons
         if (!from_command_line(join_path(table_path, own))) remove(table, table_path, own);
 }
 
+namespace {
+
+// What gave an assignment: the command line, or the file whose name the place begins with.
+std::string source_of(const std::string& place) {
+    return place.starts_with("--") ? "--" : place.substr(0, place.find(':'));
+}
+
+}  // namespace
+
+// A key that excludes others takes their place, but not that of one that the same source gives: which of the
+// two is meant?
+void Document::remove_rivals(toml::table& table, const std::string& path, const std::string& place) {
+    for (const std::string& rival : rivals_of(path, *keys_)) {
+        const std::string other = join_path(parent_of(path), rival);
+        const auto given = written_.find(other);
+        if (table.contains(rival) && given != written_.end() && given->second.line == 0 &&
+            source_of(given->second.file) == source_of(place))
+            throw UserError(fmt::format(
+                "{}: '{}' and '{}' exclude each other, and both are set{}; leave out one", place, path, other,
+                given->second.file == place ? "" : fmt::format(" ({})", given->second.file)));
+        remove(table, parent_of(path), rival);
+    }
+}
+
 void Document::set(const Assignment& assignment) {
     const std::string place = assignment.place();
     if (const std::string wrong = complaint_of_utf8(assignment.text); !wrong.empty())
@@ -156,7 +180,7 @@ void Document::set(const Assignment& assignment) {
     const std::string path = join_path(table_path, key);
     toml::table parsed = parsed_value(assignment.value(), find_key(path, *keys_));
     const toml::node& value = *parsed.get("value");
-    for (const std::string& rival : rivals_of(path, *keys_)) remove(*table, table_path, rival);
+    remove_rivals(*table, path, place);
     take_back(*table, table_path, key, value);
     remove(*table, table_path, key);
     written_[path] = by;
