@@ -478,6 +478,8 @@ TEST(Messages, CommandLine) {
               "--set species.bigg.count: there is no 'bigg'; did you mean 'big'? there are small, big");
     EXPECT_EQ(complaint(wedge_text, {"run.duration.more=3"}),
               "--set run.duration.more: 'run.duration' is not a table; name one of its own keys");
+    EXPECT_EQ(complaint(wedge_text, {"run.duration.more.and.more=3"}),
+              "--set run.duration.more.and.more: 'run.duration' is not a table; name one of its own keys");
     const std::string size =
         "--set film.size: 'size' must be width x height, each from 64 to 8192 pixels, but is ";
     for (const char* wrong : {"641", "0x0", "640x", "1920x1080p", "99999999999999999999x100"})

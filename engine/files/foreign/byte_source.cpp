@@ -72,9 +72,10 @@ bool really(const UnreadPacking& packing, std::string_view head) {
     if (packing.magic == "BZh"sv)
         return byte(3) >= '1' && byte(3) <= '9' && head.substr(4).starts_with("1AY&SY");
     if (packing.magic != "]\0\0"sv) return true;
+    if (head.size() < 14 || byte(4) >= 0x20) return false;
     const bool unknown_size = head.substr(5).starts_with("\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF");
     const bool sane_size = byte(10) == 0 && byte(11) == 0 && byte(12) == 0;
-    return head.size() > 13 && byte(4) < 0x20 && (unknown_size || sane_size);
+    return unknown_size || sane_size;
 }
 
 Packing packing_of(const FileBytes& file) {

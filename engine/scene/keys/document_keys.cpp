@@ -91,15 +91,24 @@ toml::node* Document::step_into(toml::node& node, const std::string& part, const
                                 excerpt(fmt::format("{}", fmt::join(names, ", ")), most_named)));
 }
 
+namespace {
+
+[[noreturn]] void fail_not_a_table(const std::string& path, const Location& by) {
+    throw UserError(fmt::format("{}: '{}' is not a table; name one of its own keys", by.file, excerpt(path)));
+}
+
+}  // namespace
+
 // The table in which the last of `parts` lies, and its path with indices. The table is made if it is missing.
 // It also replaces another value of a key that may be a table.
 std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::string>& parts,
                                                          const Location& by) {
     toml::node* node = &root_;
     std::string path;
-    for (std::size_t i = 0; i + 1 < parts.size() && node != nullptr; ++i) {
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         toml::table* const parent = node->as_table();
         toml::node* inner = step_into(*node, parts[i], by.file);
+        if (inner == nullptr) fail_not_a_table(path, by);
         if (const toml::array* array = node->as_array()) {
             std::size_t index = 0;
             while (array->get(index) != inner) ++index;
@@ -116,9 +125,7 @@ std::pair<toml::table*, std::string> Document::table_for(const std::vector<std::
             written_[path] = by;
         }
     }
-    if (node == nullptr || !node->is_table())
-        throw UserError(
-            fmt::format("{}: '{}' is not a table; name one of its own keys", by.file, excerpt(path)));
+    if (!node->is_table()) fail_not_a_table(path, by);
     return {node->as_table(), path};
 }
 
