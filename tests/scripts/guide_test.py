@@ -11,6 +11,7 @@ nothing else is changed.
 --table prints the table as it must be. --pictures draws the page's pictures. --list tells what would be run.
 """
 import pathlib
+import os
 import re
 import shlex
 import shutil
@@ -45,7 +46,8 @@ def run(command, folder, script=False):
 
 
 def environment(folder):
-    return {"PATH": f"{folder}/bin:/usr/bin:/bin", "HOME": str(folder), "XDG_CACHE_HOME": str(folder / "cache"),
+    of_sanitizers = {name: value for name, value in os.environ.items() if name.endswith("SAN_OPTIONS")}
+    return {**of_sanitizers, "PATH": f"{folder}/bin:/usr/bin:/bin", "HOME": str(folder), "XDG_CACHE_HOME": str(folder / "cache"),
             "LC_ALL": "C.UTF-8"}
 
 
