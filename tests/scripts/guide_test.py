@@ -10,8 +10,8 @@ nothing else is changed.
 
 --table prints the table as it must be. --pictures draws the page's pictures. --list tells what would be run.
 """
-import pathlib
 import os
+import pathlib
 import re
 import shlex
 import shutil
