@@ -45,8 +45,10 @@ TEST(ChangingDrive, SameBitsOnAnyThreadsAndThroughACheckpointInAChange) {
     const std::int64_t end = plan.steps;  // after the first taps
     whole.advance(end);
     EXPECT_NEAR(whole.measure("cycles"), plan.clock.cycles(end), 0);
-    const Scene next = scene_of(
-        {"start.method=file", "start.file=" + (folder / "middle.grs").string(), "start.keep_clock=true"});
+    Scene next = scene;
+    next.start.method = Start::Method::file;
+    next.start.file = (folder / "middle.grs").string();
+    next.start.keep_clock = true;
     for (const int threads : {1, 2, 3}) {
         Simulation second(next, plan, threads);
         second.pack();

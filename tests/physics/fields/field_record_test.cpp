@@ -82,15 +82,19 @@ TEST(FieldsOfRun, BedAtRestCarriesTheWeightAbove) {
 
 class ShakenFields : public testing::Test {
   protected:
-    static Scene scene_of(std::vector<std::string> sets = {}) {
-        sets.insert(sets.begin(), {"contact.stiffness=700 N/m", "start.settle_limit=0.02 s",
-                                   "output.fields.grid=yz", "output.fields.periods=2"});
+    static Scene with_fields(std::vector<std::string> sets) {
+        sets.insert(sets.begin(),
+                    {"contact.stiffness=700 N/m", "output.fields.grid=yz", "output.fields.periods=2"});
         return read_scene_text(test::small_scene_text, "fifty.toml", with_tested_precision(sets));
+    }
+    static Scene scene_of(std::vector<std::string> sets = {}) {
+        sets.insert(sets.begin(), "start.settle_limit=0.02 s");
+        return with_fields(sets);
     }
     Scene next_of(std::vector<std::string> sets = {}) const {
         sets.insert(sets.begin(), {"start.method=file", "start.file=" + (here / "half.grs").string(),
                                    "start.keep_clock=true"});
-        return scene_of(sets);
+        return with_fields(sets);
     }
     static FieldValues fields_at(Simulation& run, std::int64_t step) {
         run.advance(step);

@@ -277,8 +277,10 @@ TEST(Instruments, GoOnFromACheckpointBitByBit) {
     whole.advance(5 * period + period / 3);
     whole.save_checkpoint(here / "broken.grs");
     whole.advance(9 * period);
-    const Scene rest = shaken({"run.duration=0.7 s", "start.method=file",
-                               "start.file=" + (here / "broken.grs").string(), "start.keep_clock=true"});
+    Scene rest = scene;
+    rest.start.method = Start::Method::file;
+    rest.start.file = (here / "broken.grs").string();
+    rest.start.keep_clock = true;
     Simulation taken_up(rest, make_plan(rest), 2);
     taken_up.pack();
     taken_up.advance(9 * period);
