@@ -113,6 +113,12 @@ using Floats = std::vector<float>;
 using Counts = std::vector<std::uint32_t>;
 
 // Two grains in a tilted box. The second frame only moves them, and the third has three grains.
+std::vector<std::string> names_of(const RawTable& table) {
+    std::vector<std::string> names;
+    for (const RawColumn& column : table.columns) names.push_back(column.name);
+    return names;
+}
+
 GsdBytes bed() {
     GsdBytes gsd;
     gsd.chunk(0, "configuration/box", 6, Floats{4, 5, 6, 0.5F, 0, 0.25F});
@@ -164,6 +170,19 @@ TEST(Gsd, WhatAFrameLacksIsThatOfTheFirst) {
     EXPECT_THAT(words(frame.grains, "type"), ElementsAre("big", "small"));
     EXPECT_THAT(column(frame.grains, "orientation:1"), ElementsAre(1, 0));
     EXPECT_THAT(column(frame.grains, "log/particles/heat"), ElementsAre(20, 30));
+}
+
+// Columns are known by their places, so a frame with one grain must have the column of ids too.
+TEST(Gsd, WhatIsLoggedForEachGrainIsAColumnOfEveryFrame) {
+    GsdBytes gsd = bed();
+    gsd.chunk(3, "particles/N", 1, Counts{1});
+    gsd.chunk(3, "particles/position", 3, Floats{1, 2, 3});
+    gsd.chunk(3, "log/particles/heat", 1, std::vector<double>{7});
+    const std::vector<std::string> names = names_of(frame_of(gsd_format(), gsd.bytes(), 1).grains);
+    for (const std::size_t frame : {0, 2, 3})
+        EXPECT_EQ(names_of(frame_of(gsd_format(), gsd.bytes(), frame).grains), names) << frame;
+    EXPECT_THAT(column(frame_of(gsd_format(), gsd.bytes(), 3).grains, "log/particles/heat"), ElementsAre(7));
+    EXPECT_TRUE(std::isnan(column(frame_of(gsd_format(), gsd.bytes(), 2).grains, "log/particles/heat")[0]));
 }
 
 TEST(Gsd, WhereTheCountIsAnotherTheDefaultHolds) {

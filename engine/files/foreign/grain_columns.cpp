@@ -74,6 +74,7 @@ GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const R
                            std::string file)
     : file_(std::move(file)), options_(options), facts_(facts), units_(units_for(facts, options, file_)) {
     const RawTable& table = frame.grains;
+    for (const RawColumn& column : table.columns) names_.push_back(column.name);
     const auto find = [&](const std::string& meaning) { return column_for(meaning, table, options_, file_); };
     id_ = find("id");
     type_ = find("type");
@@ -211,7 +212,17 @@ std::string GrainMeaning::type_of(const RawFrame& raw, std::size_t row) const {
     return type_word(raw.grains.columns[*type_], value(raw.grains, type_, row));
 }
 
+// The columns are known by their places, so these must not change from frame to frame.
+void GrainMeaning::check_columns(const RawTable& table, const std::string& place) const {
+    if (table.rows == 0) return;
+    for (std::size_t k = 0; k < names_.size(); ++k)
+        if (k >= table.columns.size() || table.columns[k].name != names_[k])
+            throw UserError(fmt::format("{}: has other columns than the first frame; {} is not at its place",
+                                        place, names_[k]));
+}
+
 void GrainMeaning::add_types(const RawFrame& raw, TypeList& types) const {
+    check_columns(raw.grains, file_);
     if (!type_) {
         types.add("1");
         return;
@@ -254,6 +265,7 @@ std::vector<std::size_t> by_rising(const std::vector<std::int32_t>& ids) {
 
 Frame GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std::string& place) const {
     const RawTable& table = raw.grains;
+    check_columns(table, place);
     std::vector<std::int32_t> ids(table.rows);
     for (std::size_t row = 0; row < table.rows; ++row) {
         const double number = id_ ? value(table, id_, row) : static_cast<double>(row) + facts_.first_row_id;

@@ -41,7 +41,8 @@ std::string type_word(const RawColumn& column, double value);
 
 class GrainMeaning {
   public:
-    // frame: the first of the file that has rows; all frames have its columns. file: for messages. Throws
+    // frame: the first of the file that has rows. All frames must begin with its columns; frame() and
+    // add_types() throw UserError where one does not. file: for messages. Throws
     // UserError where the file has no places, where no radius is known, and where the options do not fit.
     GrainMeaning(const RawFacts& facts, const RawFrame& frame, const ReadingOptions& options,
                  std::string file);
@@ -75,6 +76,7 @@ class GrainMeaning {
     double radius_of(const RawFrame& raw, std::size_t row, const std::string& place) const;
     std::string type_of(const RawFrame& raw, std::size_t row) const;
     void check_flat(const RawFrame& frame) const;
+    void check_columns(const RawTable& table, const std::string& place) const;
 
     using Column = std::optional<std::size_t>;
     double value(const RawTable& table, Column column, std::size_t row) const {
@@ -85,6 +87,7 @@ class GrainMeaning {
     ReadingOptions options_;
     RawFacts facts_;
     UnitSystem units_;
+    std::vector<std::string> names_;  // names of the columns of the first frame that has rows
     Column id_, type_, radius_, density_, mass_;
     bool is_diameter_ = false;
     double radius_unit_ = 1, place_unit_ = 1;  // m

@@ -17,7 +17,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr std::string_view of_particles = "particles/", of_log = "log/";
+constexpr std::string_view of_particles = "particles/", of_log = "log/",
+                           of_logged_particles = "log/particles/";
 constexpr std::uint32_t most_columns = 64;  // columns of one chunk
 
 // The schema's default of a component; NaN where it has none.
@@ -69,6 +70,7 @@ class GsdFrames : public RawFile {
     GsdFile file_;
     RawFacts facts_;
     std::vector<RawMoment> moments_;
+    std::map<std::string, std::uint32_t> logged_;  // columns of what is logged for each grain, by name
     std::string time_name_;  // name of the chunk with the time; empty where there is none
     mutable std::mutex reading_;
 };
@@ -95,6 +97,10 @@ GsdFrames::GsdFrames(const std::filesystem::path& path) : file_(path) {
         moment.time = time_of(frame);
         moments_.push_back(moment);
     }
+    for (const std::string& name : file_.names())
+        for (std::size_t frame = 0; frame < file_.frames() && name.starts_with(of_logged_particles); ++frame)
+            if (const GsdChunk* chunk = file_.find(name, frame); chunk && chunk->columns <= most_columns)
+                logged_.try_emplace(name, chunk->columns);
 }
 
 const GsdChunk* GsdFrames::chunk_of(const std::string& name, std::size_t frame) const {
@@ -163,13 +169,18 @@ void GsdFrames::add_columns(RawTable& grains, const std::string& name, std::size
     }
 }
 
+// Every frame gets the same columns. A frame that does not have them for each of its grains has NaN there.
 void GsdFrames::add_log(RawTable& grains, const std::string& name, std::size_t frame) const {
+    const auto known = logged_.find(name);
+    if (known == logged_.end()) return;
+    const std::size_t width = known->second;
     const GsdChunk* chunk = file_.find(name, frame);
-    if (!chunk || chunk->rows != grains.rows || grains.rows < 2 || chunk->columns > most_columns) return;
-    const std::vector<double> values = file_.numbers(*chunk);
-    for (std::size_t k = 0; k < chunk->columns; ++k) {
-        RawColumn column{column_name(name, k, chunk->columns), {}, {}};
-        for (std::size_t i = 0; i < grains.rows; ++i) column.values.push_back(values[i * chunk->columns + k]);
+    const bool there = chunk && chunk->rows == grains.rows && chunk->columns == width;
+    const std::vector<double> values = there ? file_.numbers(*chunk) : std::vector<double>();
+    for (std::size_t k = 0; k < width; ++k) {
+        RawColumn column{column_name(name, k, width), {}, {}};
+        for (std::size_t i = 0; i < grains.rows; ++i)
+            column.values.push_back(there ? values[i * width + k] : std::numeric_limits<double>::quiet_NaN());
         grains.columns.push_back(std::move(column));
     }
 }
@@ -221,7 +232,7 @@ RawFrame GsdFrames::read(std::size_t index) const {
         file_.fault(places ? places->place : 0,
                     fmt::format("frame {} has {} grains and no places for them", index, frame.grains.rows));
     for (const std::string& name : file_.names()) {
-        if (name.starts_with(of_log)) add_log(frame.grains, name, index);
+        if (name.starts_with(of_logged_particles)) add_log(frame.grains, name, index);
         if (!name.starts_with(of_particles) || !file_.has(name)) continue;
         const std::string own = name.substr(of_particles.size());
         if (own != "N" && own != "types" && own != "type_shapes") add_columns(frame.grains, own, index);
