@@ -171,10 +171,9 @@ struct FrameWriter::Impl {
     std::int64_t frames = 0;
     std::vector<grainreel::Frame> waiting;
     FrameSupply supply;
-    // Of the last frame.
-    double time = 0;
-    std::int64_t step = 0;
-    bool numbered = true;  // all frames came with the step 0
+    double time = 0;        // s, time of the last frame
+    std::int64_t step = 0;  // step of the last frame
+    bool numbered = true;   // all frames came with the step 0
 };
 
 // Removes a file without a frame, which would only be in the way of the next attempt.

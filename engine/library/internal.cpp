@@ -263,7 +263,7 @@ int number_cut_off(std::string& text) {
 }  // namespace
 
 std::string in_words_of_library(std::string message) {
-    // Of two texts of which one begins with the other, the longer one comes first.
+    // The first text that fits is taken, so a longer text comes before a shorter one that it begins with.
     static constexpr std::pair<std::string_view, std::string_view> words[] = {
         {", or --force to replace it when the new run is complete", ""},
         {", or --force to replace it", ""},

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
 #include <grainreel/error.hpp>
 #include <grainreel/run.hpp>
 #include <grainreel/simulation.hpp>
+
+#include "tests/library/own_folder.hpp"
 
 namespace gr = grainreel;
 
@@ -66,23 +66,6 @@ std::string message_of(const std::function<void()>& call) {
     return error_of(call).what();
 }
 
-class Folder {
-  public:
-    Folder()
-        : path_(std::filesystem::temp_directory_path() / ("simulation_test." + std::to_string(::getpid()))) {
-        std::filesystem::remove_all(path_);
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    std::filesystem::path operator/(const char* name) const { return path_ / name; }
-
-  private:
-    std::filesystem::path path_;
-};
-
 // A spring without losses that keeps as many numbers as it is told, and answers NaN beyond an overlap.
 class Spring final : public gr::ContactLaw {
   public:
@@ -121,7 +104,7 @@ TEST(LibraryError, HasTheWordsOfTheLibrary) {
                 StartsWith("setting run.duration: 'duration' "));
     EXPECT_EQ(message_of([] { scene("", {"run.duration"}); }),
               "setting run.duration: no assignment; write drive.frequency=\"30 Hz\"");
-    const Folder folder;
+    const OwnFolder folder;
     std::ofstream(folder / "there") << "not a run";
     gr::RunOptions options;
     options.folder = folder / "there";
@@ -230,7 +213,7 @@ TEST(LibraryInsert, LooksWhereTheWallsAreNow) {
 }
 
 TEST(LibraryInsert, RefusesPlacesInPlanesAndMeshes) {
-    const Folder folder;
+    const OwnFolder folder;
     std::ofstream cube(folder / "cube.obj");
     for (int k = 0; k < 8; ++k)
         cube << "v " << (k & 1 ? 0.004 : -0.004) << ' ' << (k & 2 ? 0.009 : 0.001) << ' '
@@ -255,7 +238,7 @@ TEST(LibraryInsert, RefusesPlacesInPlanesAndMeshes) {
 }
 
 TEST(LibraryCheckpoint, SaysWhatIsWrongWithIt) {
-    const Folder folder;
+    const OwnFolder folder;
     const auto opened = [&](const char* name, const gr::SimulationOptions& options = {}) {
         return error_of([&] { gr::Simulation::from_checkpoint(scene(), folder / name, options); });
     };
