@@ -3,7 +3,8 @@
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
 build="$root/build/release"
 
-# Debian 12 package, and the pkg-config module or file that stands for it elsewhere ("-" where it is implied).
+# Debian's package, and the pkg-config module or plain words that stand for it elsewhere. Where releases of Debian
+# differ, a row has several packages with | between them: the first that the release offers is taken.
 program_packages="
 g++                  a C++20 compiler (GCC 12 or clang 14, or newer)
 cmake                CMake 3.25
@@ -28,14 +29,15 @@ libexpat1-dev        expat
 libmicrohttpd-dev    libmicrohttpd
 libpango1.0-dev      pangocairo, pangoft2, cairo
 fonts-dejavu-core    the DejaVu fonts
-libosmesa6-dev       osmesa (Mesa before 25.1), headers and library
+libosmesa6|libegl-mesa0  software OpenGL: libOSMesa.so.8 of Mesa before 25.1, else Mesa's driver for EGL
 libgl-dev            GL/glcorearb.h
-libegl-dev           EGL/eglext.h, and libEGL.so.1 for --gl egl
+libegl-dev           EGL/eglext.h, and libEGL.so.1
 libavformat-dev      libavformat
 libavcodec-dev       libavcodec, with libx264
 libswscale-dev       libswscale
 libavfilter-dev      libavfilter
 gnuplot-nox          gnuplot, for ./movie chart
+dpkg-dev             dpkg-shlibdeps, for cpack
 "
 test_packages="
 libgtest-dev         gtest
@@ -43,7 +45,6 @@ libgmock-dev         gmock
 python3-xarray       xarray for Python, which reads fields.nc in a test
 python3-netcdf4      netCDF4 for Python
 python3-vtk9         VTK for Python, which reads fields.nc in a test
-dpkg-dev             dpkg-shlibdeps, for the test of the Debian package
 "
 browser_packages="
 chromium             a browser, for ./test --browser
@@ -58,6 +59,8 @@ liggghts             LIGGGHTS
 openmpi-bin          mpirun
 "
 
+archive_words="docs/guide/install.md: machines without root"
+
 say() { printf '%s\n' "$*" >&2; }
 
 list_libraries() {  # $1: a package table
@@ -65,33 +68,70 @@ list_libraries() {  # $1: a package table
     sed '/^$/d; s/^/  /' <<<"$1" >&2
 }
 
+installed() {  # $@: packages. Prints those that are installed.
+    dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p'
+}
+
+offered() {  # $@: packages. Prints those that apt can install.
+    apt-cache policy "$@" 2>/dev/null |
+        awk '/^[^ ]/ { name = $1; sub(/(:[a-z0-9]+)?:$/, "", name) } $1 == "Candidate:" && $2 != "(none)" { print name }'
+}
+
+# Prints what apt must install for the rows of a package table, given the packages that apt offers, a line each.
+# Rows of which apt offers nothing are printed with a ! before them.
+choose_packages() {  # $1: rows, one word each; $2: packages on offer
+    local row name chosen
+    for row in $1; do
+        chosen=
+        for name in ${row//|/ }; do
+            if grep -qxF -- "$name" <<<"$2"; then chosen=$name && break; fi
+        done
+        echo "${chosen:-!$row}"
+    done
+}
+
 install_packages() {  # $1: a package table. Returns at once when all of it is installed.
-    local wanted missing as_root=()
-    wanted=$(awk '{print $1}' <<<"$1")
+    local row there missing='' offer chosen lacking as_root=()
     if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
         return 0  # another distribution: the configuration tells whether the libraries are there
     fi
-    # shellcheck disable=SC2086  # one word a package
-    missing=$(comm -23 <(sort <<<"$wanted" | sed '/^$/d') \
-                       <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2>/dev/null |
-                         sed -n 's/^installed //p' | sort) | tr '\n' ' ')
+    # shellcheck disable=SC2046  # one word a package
+    there=$(installed $(awk '{print $1}' <<<"$1" | tr '|' ' '))
+    for row in $(awk '{print $1}' <<<"$1"); do
+        [[ $(choose_packages "$row" "$there") != !* ]] || missing+="$row "
+    done
     [[ -n $missing ]] || return 0
     if ((EUID != 0)); then
         if sudo -n true 2>/dev/null || { [[ -t 0 ]] && command -v sudo >/dev/null; }; then
             as_root=(sudo)
         else
+            # shellcheck disable=SC2086
+            chosen=$(choose_packages "$missing" "$(offered ${missing//|/ })" | sed 's/^!//; s/|.*//' | tr '\n' ' ')
             say "These packages are missing, and installing them needs root. Ask for:"
-            say "  apt-get install --no-install-recommends $missing"
+            say "  apt-get install --no-install-recommends $chosen"
+            say "Without root: the archive needs no packages ($archive_words)."
             exit 2
         fi
     fi
-    say "Installing with apt: $missing"
     "${as_root[@]}" apt-get -q -o DPkg::Lock::Timeout=300 update >&2 ||
         say "apt-get update failed; going on with the lists that are there."
     # shellcheck disable=SC2086
+    offer=$(offered ${missing//|/ })
+    chosen=$(choose_packages "$missing" "$offer")
+    lacking=$(sed -n 's/^!//p' <<<"$chosen" | tr '\n' ' ')
+    chosen=$(grep -v '^!' <<<"$chosen" | tr '\n' ' ')
+    if [[ -n $lacking ]]; then
+        say "This system's package sources have none of: $lacking"
+        say "Nothing was installed. Install what they stand for by other means and add --no-install,"
+        say "or take the archive, which needs no packages ($archive_words)."
+        list_libraries "$1"
+        exit 2
+    fi
+    say "Installing with apt: $chosen"
+    # shellcheck disable=SC2086
     if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 \
-            install --no-install-recommends $missing </dev/null >&2; then
-        say "apt could not install: $missing"
+            install --no-install-recommends $chosen </dev/null >&2; then
+        say "apt could not install: $chosen"
         list_libraries "$1"
         exit 2
     fi

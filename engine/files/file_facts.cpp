@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "engine/mesh/surface.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {

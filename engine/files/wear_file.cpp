@@ -10,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/measure/measures.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {

@@ -10,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/measure/health.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/run/import/import_measures.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/step/surroundings.hpp"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/numbers.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/text/units.hpp"
 #include "engine/start/start_file.hpp"
 

@@ -8,6 +8,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/energy.hpp"
+#include "engine/mesh/room.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/step/surroundings.hpp"
 
 namespace grainreel {

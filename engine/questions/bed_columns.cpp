@@ -7,6 +7,7 @@
 
 #include "engine/measure/segregation/unlike_neighbours.hpp"
 #include "engine/measure/surface/surface.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/state/container_faces.hpp"
 

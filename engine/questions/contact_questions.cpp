@@ -1,6 +1,7 @@
 #include "engine/questions/contact_questions.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -15,6 +15,8 @@
 #include "engine/base/numbers.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
+#include "engine/mesh/room.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/questions/contact_questions.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/mesh/surface.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/mesh/room.hpp"
+
 namespace grainreel {
 
 double mean_cube(const SizeSpread& d) {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/mesh/room.hpp"
+#include "engine/mesh/surface.hpp"
+
 namespace grainreel {
 
 namespace {

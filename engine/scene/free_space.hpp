@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "engine/mesh/room.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "engine/base/error.hpp"
+#include "engine/mesh/room.hpp"
 
 namespace grainreel {
 

@@ -11,11 +11,13 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/mesh/room.hpp"
 #include "engine/scene/motion.hpp"
 #include "engine/scene/output.hpp"
 
 namespace grainreel {
+
+class EnclosedRoom;  // engine/mesh/room.hpp, which only those include that look into a room
+class Surface;       // engine/mesh/surface.hpp
 
 // A place in the scene file, for messages. Line and column count from 1. Line 0 means that the value is not
 // in the file: it is a default, or it was set on the command line and `file` says so, e.g. "--set

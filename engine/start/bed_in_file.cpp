@@ -6,6 +6,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/energy.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/held_histories.hpp"

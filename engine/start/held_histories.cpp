@@ -7,6 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "engine/mesh/surface.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/start/start_file.hpp"
 #include "engine/step/lists/contact_rules.hpp"

@@ -11,6 +11,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/step/grid/neighbours.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/start/mesh_checks.hpp"
 #include "engine/step/surroundings.hpp"
 

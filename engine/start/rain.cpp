@@ -10,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/measure/health.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/plan/plan_bed.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/free_space.hpp"

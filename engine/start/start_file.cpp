@@ -9,6 +9,8 @@
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/grain_table.hpp"
+#include "engine/mesh/room.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/step/surroundings.hpp"
 
 namespace grainreel {

@@ -1,5 +1,6 @@
 // The plan of a scene that starts from a file: what follows from the file, and what happens to its bed.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

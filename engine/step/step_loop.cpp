@@ -9,6 +9,7 @@
 #include "engine/base/binary.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/processor.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/step/forces/contact_forces.hpp"
 #include "engine/step/lists/large_bed.hpp"
 #include "engine/step/motion/integrate.hpp"

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
@@ -18,6 +15,7 @@
 #include "engine/files/foreign/names.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/purposes.hpp"

@@ -2,11 +2,11 @@
 // which man pages and completions for shells are written.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "render/app/options/cli.hpp"
 #include "render/app/verbs/verbs.hpp"
 
 namespace grainreel {

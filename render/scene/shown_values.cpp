@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/text/units.hpp"
 

@@ -468,7 +468,7 @@ TEST(Overlay, NumbersReadWell) {
 }
 
 TEST(Context, ShadersThatDoNotCompileSayWhy) {
-    const auto context = gl::make_osmesa_context(1);
+    const auto context = gl::make_context(gl::Provider::automatic, 1);
     const char* const fine = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
     try {
         const gl::Program program(context->gl(), "broken", fine,

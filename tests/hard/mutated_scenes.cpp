@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/scene/keys/keys.hpp"
 #include "render/scene/filmed_scene.hpp"

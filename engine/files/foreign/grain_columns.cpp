@@ -1,6 +1,7 @@
 #include "engine/files/foreign/grain_columns.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

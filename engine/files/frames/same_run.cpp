@@ -9,6 +9,7 @@
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"

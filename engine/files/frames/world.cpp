@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/files/frames/frame_archive.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel {

@@ -9,6 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/bed.hpp"
 

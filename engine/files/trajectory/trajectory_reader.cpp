@@ -1,6 +1,7 @@
 // Reads trajectory.nc, our own or one of the same convention.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <netcdf.h>
 #include <algorithm>
 #include <array>

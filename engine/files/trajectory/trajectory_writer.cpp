@@ -1,6 +1,7 @@
 // Writes trajectory.nc frame by frame. What is written stays whole when a write fails.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <netcdf.h>
 #include <algorithm>
 #include <functional>

@@ -1,6 +1,7 @@
 #include "engine/lab/chart/chart.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <sstream>
 

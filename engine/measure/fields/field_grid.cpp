@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "engine/measure/walls/wall_bodies.hpp"
+#include "engine/mesh/room.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/state/container_faces.hpp"
 

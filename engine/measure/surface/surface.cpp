@@ -11,6 +11,8 @@
 #include "engine/base/numbers.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
+#include "engine/mesh/room.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/state/container_faces.hpp"
 

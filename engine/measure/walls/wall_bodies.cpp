@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/mesh/surface.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
 

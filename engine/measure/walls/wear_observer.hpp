@@ -10,6 +10,7 @@
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
 

@@ -1,6 +1,7 @@
 #include "engine/run/folder/scene_folder_run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <cmath>
 #include <utility>
 #include <vector>

@@ -13,6 +13,7 @@
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation/segregation_observers.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"

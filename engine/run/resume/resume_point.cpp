@@ -1,6 +1,7 @@
 #include "engine/run/resume/resume_point.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

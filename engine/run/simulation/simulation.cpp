@@ -11,6 +11,7 @@
 #include "engine/base/random.hpp"
 #include "engine/base/team.hpp"
 #include "engine/measure/energy.hpp"
+#include "engine/mesh/room.hpp"
 #include "engine/run/simulation/simulation_impl.hpp"
 #include "engine/start/rain.hpp"
 #include "engine/state/traffic.hpp"

@@ -11,6 +11,8 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/mesh/load_mesh.hpp"
+#include "engine/mesh/room.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <array>
 
+#include "engine/mesh/surface.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/container_keys.hpp"
 #include "engine/scene/chapters/mesh_files.hpp"

@@ -2,6 +2,7 @@
 #include "engine/scene/chapters/container_keys.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "engine/scene/keys/document.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "engine/scene/text/toml_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <map>

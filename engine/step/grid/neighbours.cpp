@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/mesh/surface.hpp"
+
 namespace grainreel {
 
 void put_in_order(const TeamMember& me, Cells& cells, Grains& grains, double skin, double period,

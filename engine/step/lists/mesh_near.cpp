@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/mesh/surface.hpp"
+
 namespace grainreel {
 
 void MeshLists::clear() {

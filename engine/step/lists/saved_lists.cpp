@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/mesh/surface.hpp"
+
 namespace grainreel {
 
 namespace {

@@ -1,11 +1,14 @@
 #include "render/app/check/print_plan.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
+#include "engine/mesh/room.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/plan/plan_bed.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive_schedule.hpp"

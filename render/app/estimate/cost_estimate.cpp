@@ -13,6 +13,7 @@
 #include "engine/base/random.hpp"
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/bench_run.hpp"
+#include "engine/mesh/room.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/driver/run_files.hpp"

@@ -9,7 +9,6 @@
 #include <spdlog/version.h>
 #include <toml++/toml.h>
 #include <xxhash.h>
-#include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -23,6 +22,7 @@ extern "C" {
 
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/vector/instructions.hpp"
+#include "render/app/options/cli.hpp"
 
 namespace grainreel {
 

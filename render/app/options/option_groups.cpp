@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -11,6 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/purposes.hpp"
 #include "render/scene/shown_values.hpp"

@@ -4,8 +4,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,6 +11,7 @@
 
 #include "engine/scene/keys/keys.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/print/paper.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/page/live/watch.hpp"

@@ -1,6 +1,7 @@
 #include "render/app/options/run_to_read.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <charconv>
 #include <string_view>

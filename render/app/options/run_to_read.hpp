@@ -1,13 +1,13 @@
 // The runs that verbs read: a folder of a run of ours, or files of other programs, which are imported first.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/options/cli.hpp"
 
 namespace grainreel {
 

@@ -1,6 +1,7 @@
 #include "render/app/print/run_charts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,7 +1,5 @@
 // The verb `bench` measures how fast the engine and the drawing are on known beds.
 #include <fmt/format.h>
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -12,6 +10,7 @@
 #include "engine/vector/instructions.hpp"
 #include "render/app/bench_render.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/scene/film.hpp"

@@ -2,14 +2,13 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 

@@ -133,8 +133,9 @@ std::vector<Diagnosis> find_processors() {
 
 std::vector<Diagnosis> find_drawing() {
     std::vector<Diagnosis> found = {
-        opengl("OpenGL by OSMesa", gl::Provider::osmesa, "on Debian: apt-get install libosmesa6"),
-        opengl("OpenGL by EGL", gl::Provider::egl, "on Debian: apt-get install libegl1 libgl1-mesa-dri")};
+        opengl("OpenGL by OSMesa", gl::Provider::osmesa,
+               "on Debian 13 and older: apt-get install libosmesa6"),
+        opengl("OpenGL by EGL", gl::Provider::egl, "on Debian: apt-get install libegl1 libegl-mesa0")};
     // One of the two is enough, so each is needed only when the other is missing too.
     for (Diagnosis& finding : found) finding.needed = !found[0].good && !found[1].good;
     return found;

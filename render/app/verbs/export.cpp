@@ -3,8 +3,6 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
@@ -14,6 +12,7 @@
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"
 #include "render/app/verbs/verbs.hpp"

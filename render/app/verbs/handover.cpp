@@ -3,8 +3,6 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
@@ -22,6 +20,7 @@
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/stop_signal.hpp"
 #include "render/app/messages/version.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/run/engine_run.hpp"

@@ -1,14 +1,13 @@
 // The verb `inspect` answers questions about a moment of a run. This file has its options and prints the
 // answer; render/app/inspect/inspection.cpp finds the answer.
 #include <fmt/format.h>
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "render/app/inspect/inspection.hpp"
 #include "render/app/inspect/print_answer.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"
 #include "render/app/verbs/verbs.hpp"

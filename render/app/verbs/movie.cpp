@@ -6,8 +6,6 @@
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -21,6 +19,7 @@
 #include "engine/plan/plan.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/report.hpp"
 #include "render/app/verbs/verbs.hpp"

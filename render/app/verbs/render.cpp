@@ -3,8 +3,6 @@
 #include <tuple>
 
 #include <fmt/format.h>
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
@@ -14,6 +12,7 @@
 #include "engine/run/folder/listener.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"
 #include "render/app/study/members/child.hpp"

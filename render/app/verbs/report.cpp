@@ -3,7 +3,6 @@
 #include "render/app/verbs/report.hpp"
 
 #include <fmt/format.h>
-#include <CLI/App.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,6 +19,7 @@
 #include "engine/scene/text/units.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"
 #include "render/app/print/run_charts.hpp"

@@ -4,8 +4,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
@@ -25,6 +23,7 @@
 #include "engine/start/restart.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/report.hpp"
 #include "render/app/verbs/verbs.hpp"

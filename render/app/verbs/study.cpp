@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
@@ -18,6 +16,7 @@
 #include "engine/scene/text/units.hpp"
 #include "render/app/check/check_cost.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/study/file/members.hpp"
 #include "render/app/study/file/read_study.hpp"

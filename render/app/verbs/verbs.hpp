@@ -1,13 +1,13 @@
 // The verbs of the command line and their common class.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "render/app/messages/reporter.hpp"
+#include "render/app/options/cli.hpp"
 
 namespace grainreel {
 

@@ -3,10 +3,10 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <CLI/App.hpp>
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/report.hpp"
 #include "render/app/verbs/verbs.hpp"

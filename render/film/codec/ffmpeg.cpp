@@ -78,6 +78,15 @@ void collect(void*, int level, const char* format, std::va_list arguments) {
     log.last = std::move(text);
 }
 
+// How many pictures an encoder has had. libavcodec 60.2 renamed the member.
+std::int64_t pictures_given_to(const AVCodecContext& codec) {
+#if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(60, 2, 100)
+    return codec.frame_num;
+#else
+    return codec.frame_number;
+#endif
+}
+
 // Gives an encoder one black picture and throws the result away.
 void encode_nothing(AVCodecContext& codec) {
     const AvFramePtr frame(av_frame_alloc());
@@ -100,7 +109,7 @@ void encode_nothing(AVCodecContext& codec) {
 void free_codec(AVCodecContext* codec) {
     // When SVT-AV1 1.4 is closed before it has had a picture, it waits for one for ever.
     const bool waits = avcodec_is_open(codec) && av_codec_is_encoder(codec->codec) &&
-                       codec->codec_id == AV_CODEC_ID_AV1 && codec->frame_number == 0;
+                       codec->codec_id == AV_CODEC_ID_AV1 && pictures_given_to(*codec) == 0;
     if (waits) encode_nothing(*codec);
     av_freep(&codec->stats_in);  // the figures of the first pass, which we have allocated
     avcodec_free_context(&codec);

@@ -1,6 +1,7 @@
 #include "render/film/compare/compare_run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <atomic>
 

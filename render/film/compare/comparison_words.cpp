@@ -1,6 +1,7 @@
 #include "render/film/compare/comparison_words.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <cctype>

@@ -1,6 +1,7 @@
 #include "render/film/sampling/film_frames.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 

@@ -6,6 +6,7 @@
 #include "engine/files/run_names.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
+#include "engine/mesh/surface.hpp"
 
 namespace grainreel {
 

@@ -9,6 +9,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "engine/mesh/surface.hpp"
 #include "render/page/embed.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
 

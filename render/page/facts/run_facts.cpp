@@ -11,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
+#include "engine/mesh/surface.hpp"
 #include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -9,6 +9,7 @@
 #include <EGL/eglext.h>
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,9 @@ struct Library {
     PFNEGLDESTROYSURFACEPROC destroy_surface = nullptr;
     PFNEGLMAKECURRENTPROC make_current = nullptr;
     PFNEGLGETPLATFORMDISPLAYEXTPROC platform_display = nullptr;
-    PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;  // null without the device platform
-    std::string extensions;                             // extensions of the client
+    PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;             // null without the device platform
+    PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string = nullptr;  // null without the device platform
+    std::string extensions;                                        // extensions of the client
 };
 
 bool lists(const std::string& extensions, const std::string& name) {
@@ -73,8 +75,11 @@ Library open_library() {
         throw RunError(std::string("libEGL draws to windows only (no EGL_EXT_platform_base); ") + remedy);
     const bool devices =
         lists(egl.extensions, "EGL_EXT_device_base") || lists(egl.extensions, "EGL_EXT_device_enumeration");
-    if (devices && lists(egl.extensions, "EGL_EXT_platform_device"))
+    if (devices && lists(egl.extensions, "EGL_EXT_platform_device")) {
         egl.query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(egl.address("eglQueryDevicesEXT"));
+        egl.query_device_string =
+            reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(egl.address("eglQueryDeviceStringEXT"));
+    }
     return egl;
 }
 
@@ -83,18 +88,23 @@ const Library& library() {
     return opened;
 }
 
+bool draws_in_software(const Library& egl, EGLDeviceEXT device) {
+    const char* extensions = egl.query_device_string(device, EGL_EXTENSIONS);
+    return extensions && lists(extensions, "EGL_MESA_device_software");
+}
+
 std::vector<EGLDisplay> displays_of(EglPlatform platform) {
     const Library& egl = library();
     std::vector<EGLDisplay> displays;
     if (platform == EglPlatform::surfaceless && lists(egl.extensions, "EGL_MESA_platform_surfaceless"))
         displays.push_back(egl.platform_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr));
-    if (platform == EglPlatform::device && egl.query_devices) {
+    if (platform != EglPlatform::surfaceless && egl.query_devices) {
         std::array<EGLDeviceEXT, 64> devices{};
         EGLint count = 0;
         if (egl.query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count))
-            for (EGLint i = 0; i < count; ++i)
-                displays.push_back(egl.platform_display(EGL_PLATFORM_DEVICE_EXT,
-                                                        devices[static_cast<std::size_t>(i)], nullptr));
+            for (const EGLDeviceEXT device : std::span(devices).first(static_cast<std::size_t>(count)))
+                if (platform == EglPlatform::device || draws_in_software(egl, device))
+                    displays.push_back(egl.platform_display(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
     }
     return displays;
 }

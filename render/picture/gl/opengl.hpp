@@ -131,9 +131,10 @@ class Context {
 std::unique_ptr<Context> make_osmesa_context(int raster_threads);
 
 // A context through libEGL, which is opened at run time. It is made on a device (EGL_EXT_platform_device; the
-// first device that gives a context, a GPU if there is one) or without a device
-// (EGL_MESA_platform_surfaceless). `order` says which is tried first.
-enum class EglPlatform { device, surfaceless };
+// first device that gives a context, a GPU if there is one), on the software driver among the devices
+// (EGL_MESA_device_software), or without a device (EGL_MESA_platform_surfaceless). `order` says which is
+// tried first.
+enum class EglPlatform { device, software, surfaceless };
 std::unique_ptr<Context> make_egl_context(int raster_threads,
                                           const std::vector<EglPlatform>& order = {EglPlatform::device,
                                                                                    EglPlatform::surfaceless});

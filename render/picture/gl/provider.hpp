@@ -5,7 +5,8 @@
 namespace grainreel::gl {
 
 // automatic: OSMesa, which gives the same picture on every machine. If OSMesa is missing (Mesa dropped it in
-// 25.1), EGL takes its place, and a note says so.
+// 25.1), EGL's software driver takes its place, with the same pictures. If that is missing too, EGL draws
+// with what it has, and a note says so.
 enum class Provider { automatic, osmesa, egl };
 
 }  // namespace grainreel::gl

@@ -2,6 +2,7 @@
 #include "render/picture/marks/marks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>

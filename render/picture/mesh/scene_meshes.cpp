@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "engine/measure/walls/mesh_wear.hpp"
+#include "engine/mesh/room.hpp"
+#include "engine/mesh/surface.hpp"
 
 namespace grainreel {
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/plan/reach.hpp"
 #include "render/picture/marks/marks.hpp"

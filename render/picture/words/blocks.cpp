@@ -2,6 +2,7 @@
 #include "render/picture/words/blocks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -2,6 +2,7 @@
 #include "render/picture/words/overlay.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <atomic>
 #include <cmath>

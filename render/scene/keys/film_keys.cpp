@@ -3,6 +3,7 @@
 #include "render/scene/keys/film_keys.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -38,6 +38,11 @@ TEST_F(GlChoice, TheOptionGoesBeforeTheEnvironment) {
     EXPECT_EQ(movie({}, {"GRAINREEL_GL=egl"}).status, 0);
     EXPECT_THAT(gl(), StartsWith("EGL: "));
     const Ended ended = movie({"--gl", "osmesa", "--verbose"}, {"GRAINREEL_GL=egl"});
+    if (ended.status !=
+        0) {  // Mesa 25.1 and later: the option still goes first, and what it wants is missing
+        EXPECT_THAT(ended.err, HasSubstr("libOSMesa.so.8 cannot be opened"));
+        return;
+    }
     EXPECT_THAT(gl(), StartsWith("OSMesa: "));
     EXPECT_THAT(ended.err, HasSubstr("drawn with " + gl()));
 }
@@ -50,12 +55,13 @@ TEST_F(GlChoice, AnUnknownOneIsRefused) {
     EXPECT_FALSE(fs::exists(here / "run"));
 }
 
-TEST_F(GlChoice, WithoutOSMesaItIsEglAndSaid) {
+// Mesa 25.1 and later have no OSMesa. The software driver draws the same pictures through EGL.
+TEST_F(GlChoice, WithoutOSMesaItIsTheSoftwareDriverOfEgl) {
     const std::string lost = without({"libOSMesa.so.8", "libOSMesa.so.6"});
     const Ended ended = movie({}, {lost});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(gl(), StartsWith("EGL: "));
-    EXPECT_THAT(ended.err, HasSubstr("drawn through EGL: libOSMesa.so.8 cannot be opened"));
+    EXPECT_THAT(gl(), AllOf(StartsWith("EGL: "), HasSubstr("llvmpipe")));
+    EXPECT_THAT(ended.err, Not(HasSubstr("drawn through EGL")));
     const Ended asked = movie({"--gl", "osmesa"}, {lost});
     EXPECT_EQ(asked.status, 1);
     EXPECT_THAT(asked.err, AllOf(HasSubstr("install Debian's libosmesa6"), Not(HasSubstr("EGL"))));

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
-#include <CLI/App.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -20,6 +19,7 @@
 #include "engine/run/driver/run_driver.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_disk.hpp"

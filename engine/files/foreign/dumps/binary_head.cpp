@@ -1,6 +1,7 @@
 #include "engine/files/foreign/dumps/binary_head.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <bit>

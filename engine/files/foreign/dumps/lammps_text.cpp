@@ -2,6 +2,7 @@
 // text_index.hpp and rows are read by text_rows.hpp.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <memory>

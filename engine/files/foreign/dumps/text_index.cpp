@@ -1,6 +1,7 @@
 #include "engine/files/foreign/dumps/text_index.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cstring>
 #include <set>

@@ -168,7 +168,7 @@ void add_units(TableLayout& layout, const Cells& cells) {
 // Whether a column with that name must hold only numbers.
 bool must_be_numbers(const std::string& name) {
     const std::string bare = bare_name(name);
-    for (const char* meaning : {"x", "y", "z", "vx", "vy", "vz", "radius", "diameter"})
+    for (const std::string meaning : {"x", "y", "z", "vx", "vy", "vz", "radius", "diameter"})
         for (const std::string& known : names_of(meaning))
             if (bare == known) return true;
     return false;

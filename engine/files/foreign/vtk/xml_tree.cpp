@@ -22,6 +22,30 @@ struct FreeParser {
 };
 using Parser = std::unique_ptr<std::remove_pointer_t<XML_Parser>, FreeParser>;
 
+// The place of the present event in the text. Expat 2.9 has other names for these functions, which give 64
+// bits on every system.
+std::int64_t line_of(XML_Parser parser) {
+#if XML_MAJOR_VERSION * 100 + XML_MINOR_VERSION >= 209
+    return static_cast<std::int64_t>(XML_GetCurrentLineNumber64(parser));
+#else
+    return static_cast<std::int64_t>(XML_GetCurrentLineNumber(parser));
+#endif
+}
+std::size_t byte_of(XML_Parser parser) {
+#if XML_MAJOR_VERSION * 100 + XML_MINOR_VERSION >= 209
+    return static_cast<std::size_t>(XML_GetCurrentByteIndex64(parser));
+#else
+    return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser));
+#endif
+}
+std::size_t bytes_of(XML_Parser parser) {
+#if XML_MAJOR_VERSION * 100 + XML_MINOR_VERSION >= 209
+    return static_cast<std::size_t>(XML_GetCurrentByteCount64(parser));
+#else
+    return static_cast<std::size_t>(XML_GetCurrentByteCount(parser));
+#endif
+}
+
 // Makes the tree from the events of expat.
 class Builder {
   public:
@@ -39,7 +63,7 @@ class Builder {
         }
         return parse(bytes, last);
     }
-    std::int64_t line() const { return static_cast<std::int64_t>(XML_GetCurrentLineNumber(parser_.get())); }
+    std::int64_t line() const { return line_of(parser_.get()); }
     bool at_end_of_file() const {
         const XML_Error error = XML_GetErrorCode(parser_.get());
         return error == XML_ERROR_NO_ELEMENTS || error == XML_ERROR_UNCLOSED_TOKEN ||
@@ -61,7 +85,7 @@ class Builder {
     bool parse(std::string_view bytes, bool last) {
         return XML_Parse(parser_.get(), bytes.data(), static_cast<int>(bytes.size()), last) == XML_STATUS_OK;
     }
-    std::size_t byte() const { return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get())); }
+    std::size_t byte() const { return byte_of(parser_.get()); }
 
     void stop(std::string why) {
         complaint_ = std::move(why);
@@ -86,8 +110,7 @@ class Builder {
         for (; attributes[0] != nullptr; attributes += 2)
             element.attributes.emplace_back(attributes[0], attributes[1]);
         element.line = line();
-        element.begin = element.end =
-            byte() + static_cast<std::size_t>(XML_GetCurrentByteCount(parser_.get()));
+        element.begin = element.end = byte() + bytes_of(parser_.get());
         open_.push_back(&element);
         ended_ = false;
     }

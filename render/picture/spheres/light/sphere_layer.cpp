@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/processor.hpp"
+#include "engine/mesh/room.hpp"
 #include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
 #include "render/picture/spheres/visibility.hpp"
