@@ -1,5 +1,5 @@
-// CLI11 as the verbs use it, in every version from 2.1 on. Files of this room include CLI11 through this header,
-// which is precompiled: CLI11 alone takes a compiler four seconds.
+// CLI11 as the verbs use it, in every version from 2.1 on. Files of this room include CLI11 through this
+// header, which is precompiled: CLI11 alone takes a compiler four seconds.
 #pragma once
 
 #include <CLI/App.hpp>
