@@ -23,6 +23,8 @@ constexpr std::chrono::microseconds kYields(100), kLongTurn(1000);
 void relax() {
 #if defined(__x86_64__) || defined(__i386__)
     __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    asm volatile("isb");  // what "yield" should do is left to the processor, and most do nothing
 #endif
 }
 

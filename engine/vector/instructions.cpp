@@ -24,7 +24,9 @@ HWY_EXPORT(own_target);
 std::string vector_instructions() {
     const std::string name = hwy::TargetName(HWY_DYNAMIC_DISPATCH(own_target)());
     if (name == "AVX3") return "AVX-512";
-    return name == "AVX2" || name == "SSE4" ? name : "none (plain x86-64)";
+    for (const char* known : {"AVX2", "SSE4", "NEON"})
+        if (name == known) return name;
+    return "none (plain code)";
 }
 
 }  // namespace grainreel

@@ -2,8 +2,8 @@
 // widths and for a plain double. The file is compiled for each instruction set; the guard below is that of
 // Highway's foreach_target.h.
 //
-// Multiplications and additions are fused where the code says so and the processor can do it. So AVX2 and
-// AVX-512 give the same bits. SSE4 and the code for plain numbers round twice and give other bits.
+// Multiplications and additions are fused where the code says so and the processor can do it. So AVX2,
+// AVX-512 and NEON give the same bits. SSE4 and the code for plain numbers round twice and give other bits.
 #if defined(GRAINREEL_VECTOR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_VECTOR_LANES_INL
 #undef GRAINREEL_VECTOR_LANES_INL
@@ -78,8 +78,16 @@ struct LanesOf {
         return hn::NegMulAdd(a.value, b.value, c.value);
     }
     friend HWY_INLINE LanesOf root(LanesOf a) { return hn::Sqrt(a.value); }
-    friend HWY_INLINE LanesOf larger(LanesOf a, LanesOf b) { return hn::Max(a.value, b.value); }
-    friend HWY_INLINE LanesOf smaller(LanesOf a, LanesOf b) { return hn::Min(a.value, b.value); }
+    // a > b ? a : b, and so b if one of them is no number or both are zeros. x86 has an instruction for this.
+    // Those of ARM tell zeros of two signs apart, and the bits would be others.
+    friend HWY_INLINE LanesOf larger(LanesOf a, LanesOf b) {
+        return HWY_ARCH_X86 ? hn::Max(a.value, b.value)
+                            : hn::IfThenElse(hn::Gt(a.value, b.value), a.value, b.value);
+    }
+    friend HWY_INLINE LanesOf smaller(LanesOf a, LanesOf b) {
+        return HWY_ARCH_X86 ? hn::Min(a.value, b.value)
+                            : hn::IfThenElse(hn::Lt(a.value, b.value), a.value, b.value);
+    }
     friend HWY_INLINE LanesOf size_of(LanesOf a) { return hn::Abs(a.value); }
 };
 

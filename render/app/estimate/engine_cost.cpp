@@ -238,10 +238,12 @@ constexpr std::size_t most_films =
     200;  // number of looks that are kept; when there are more, all are measured again
 constexpr std::uintmax_t largest_file = 1 << 20;
 
+// An ARM processor tells no name, but a number of its kind.
 std::string processor_name() {
     std::ifstream file("/proc/cpuinfo");
     for (std::string line; std::getline(file, line);)
-        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 1);
+        if (line.rfind("model name", 0) == 0 || line.rfind("CPU part", 0) == 0)
+            return line.substr(line.find(':') + 1);
     return "unknown";
 }
 

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
+#include <iterator>
 #include <random>
 
 #include "engine/laws/contact_law-inl.hpp"
@@ -39,7 +41,7 @@ void for_each_width(const Work& work) {
 
 // Whether kernels of this instruction set fuse multiplications with additions.
 bool fuses() {
-    return used == HWY_AVX2 || used == HWY_AVX3;
+    return std::count(std::begin(test::fused_sets), std::end(test::fused_sets), used) > 0;
 }
 
 // Push collects the numbers of a history, and Take reads those of one kind from the table of parameters.

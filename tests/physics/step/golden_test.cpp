@@ -1,15 +1,16 @@
-// Tests that the bits are the same for any number of threads and on AVX2 and AVX-512, which fuse
-// multiplications with additions; and that those of SSE4, which cannot, are the same for any number of
-// threads. Two cases also compare today's bits with yesterday's, so that no change of them goes unnoticed.
+// Tests that the bits are the same for any number of threads and on AVX2, AVX-512 and NEON, which fuse
+// multiplications with additions; and that those of plain code and SSE4, which cannot, are the same too. Two
+// cases also compare today's bits with yesterday's, so that no change of them goes unnoticed.
 // reference_test.cpp shows that the step is right. Bits depend on the compiler's order of operations, so the
 // hashes are those of GCC.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "engine/lab/bench/bench_run.hpp"
+#include "tests/instruction_sets.hpp"
 
 namespace grainreel {
 namespace {
@@ -21,18 +22,6 @@ struct Golden {
     int steps;                           // number of steps before the test, so that pairs touch
     std::uint64_t fused = 0, plain = 0;  // yesterday's hashes; 0: not compared
 };
-
-bool has(std::int64_t target) {
-    return (hwy::SupportedTargets() & HWY_TARGETS & target) != 0;
-}
-
-// Calls work() with the kernels of one instruction set.
-template <class Work>
-void at_width(std::int64_t target, const Work& work) {
-    hwy::GetChosenTarget().Update(target);
-    work();
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
 
 const BenchCase& case_of(const Golden& golden) {
     const auto& all = bench_cases();
@@ -69,25 +58,29 @@ void expect_golden([[maybe_unused]] std::uint64_t hash, [[maybe_unused]] std::ui
 #endif
 }
 
+// The bed falls with kernels of the same kind (fused or plain) and then moves, with those of each set of the
+// kind and with so many threads. Returns the hash; 0 where this processor has no such set.
+template <class Sets>
+std::uint64_t one_hash(const Sets& sets, std::uint64_t golden, const std::vector<int>& threads) {
+    std::optional<BenchBed> bed;
+    std::uint64_t hash = 0;
+    for (const std::int64_t set : sets)
+        test::with_instruction_set(set, [&] {
+            if (!bed) {
+                bed = fallen(GoldenHash::GetParam(), GoldenHash::GetParam().steps);
+                hash = hash_after(*bed, 1);
+                expect_golden(hash, golden);
+            }
+            for (const int many : threads) EXPECT_EQ(hash_after(*bed, many), hash) << many;
+        });
+    return hash;
+}
+
+// All sets of a kind take part in the short run that is compared. The fall before it takes long.
 TEST_P(GoldenHash, HoldsForAnyThreadsAndWidth) {
-    BenchBed bed;
-    std::uint64_t plain = 0;
-    // Builds without SSE4, such as those of the sanitizers, have plain code in its place, with the same bits.
-    at_width(has(HWY_SSE4) ? HWY_SSE4 : HWY_STATIC_TARGET, [&] {
-        bed = fallen(GetParam(), GetParam().steps);
-        const std::uint64_t hash = hash_after(bed, 1);
-        EXPECT_EQ(hash_after(bed, 3), hash);
-        expect_golden(hash, GetParam().plain);
-        plain = hash;
-    });
-    const auto expect_fused = [&](const std::vector<int>& threads) {
-        const std::uint64_t hash = hash_after(bed, 1);
-        EXPECT_NE(hash, plain) << "no contacts?";
-        for (const int many : threads) EXPECT_EQ(hash_after(bed, many), hash) << many;
-        expect_golden(hash, GetParam().fused);
-    };
-    if (has(HWY_AVX2)) at_width(HWY_AVX2, [&] { expect_fused({2, 3, 8, 16}); });
-    if (has(HWY_AVX3)) at_width(HWY_AVX3, [&] { expect_fused({2, 3}); });
+    const std::uint64_t plain = one_hash(test::plain_sets, GetParam().plain, {1, 3});
+    const std::uint64_t fused = one_hash(test::fused_sets, GetParam().fused, {1, 2, 3, 8, 16});
+    EXPECT_NE(fused, plain) << "no contacts?";
 }
 
 INSTANTIATE_TEST_SUITE_P(

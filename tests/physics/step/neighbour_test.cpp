@@ -1,6 +1,5 @@
 // Tests of neighbour lists against a search over all pairs, for sizes that need several grids.
 #include <gmock/gmock.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cstring>
@@ -10,6 +9,7 @@
 
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/contact_table.hpp"
+#include "tests/instruction_sets.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
@@ -160,15 +160,11 @@ TEST(NeighboursAtWidths, AreTheSame) {
     std::vector<std::int32_t> new_index;
     put_in_order({alone, 0}, cells, grains, 0.004, 0, new_index);
     const Pairs expected = all_near(grains, 0.004, 0);
-    for (const std::int64_t target : {std::int64_t{HWY_STATIC_TARGET}, std::int64_t{HWY_SSE4},
-                                      std::int64_t{HWY_AVX2}, std::int64_t{HWY_AVX3}}) {
-        if ((hwy::SupportedTargets() & HWY_TARGETS & target) == 0) continue;
-        hwy::GetChosenTarget().Update(target);
+    test::for_each_instruction_set([&](std::int64_t) {
         NeighbourList list;
         list_pairs(cells, grains, 0.004, 0, 0, static_cast<std::int32_t>(grains.size()), list);
-        EXPECT_EQ(listed(list), expected) << target;
-    }
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        EXPECT_EQ(listed(list), expected);
+    });
 }
 
 // Candidates are the offered pairs that are no contacts, whichever pairs these are.

@@ -108,7 +108,8 @@ std::string lower_case(std::string_view text) {
 std::string in_quotes(std::string_view word) {
     constexpr std::size_t most = 40;
     std::string text = "\"";
-    for (const char c : word.substr(0, most)) text += (c >= 0 && c < ' ') || c == 127 ? '?' : c;
+    for (const char c : word.substr(0, most))
+        text += static_cast<unsigned char>(c) < ' ' || c == 127 ? '?' : c;
     return text + (word.size() > most ? "...\"" : "\"");
 }
 
