@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/base/rotation.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/step/motion/integrate.cpp"
 #include "engine/vector/targets.hpp"
@@ -178,7 +180,7 @@ namespace {
 Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
     const double angle = rate.norm() * step;
     if (angle == 0) return q;
-    return (Quaternion(Eigen::AngleAxisd(angle, rate.normalized())) * q).normalized();
+    return (rotation_about(rate.normalized(), angle) * q).normalized();
 }
 
 }  // namespace
