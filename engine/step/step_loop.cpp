@@ -59,7 +59,7 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
 // with the half kick that begins the next step. In most integrators a step has one stage, that is, one
 // evaluation of forces.
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
-    const FlushDenormals flush;
+    const FlushDenormals flush(rules_.has_floats);
     Member& mine = members_[member];
     ThreadContacts& contacts = lists_.contacts(member);
     mine.clock.start();

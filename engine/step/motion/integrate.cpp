@@ -105,9 +105,10 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
         Bundle<size> now = bundle_at<size>(motion), gains = gravity;
         if (has_load.value) gains = multiply_add(bundle_at<size>(load), Whole::fourths(motion), gravity);
         if (ends) now = multiply_add(last, gains, now);
-        if (ends && drags) now = now * keep;
+        if (ends && drags) now = without_tiny(now * keep, kNoMotion);
         if (begins) {
             now = multiply_add(next, gains, now);
+            if (drags) now = without_tiny(now, kNoMotion);
             double* place = at.place + 4 * i;
             const double radius = place[3];
             Bundle<4> moved = bundle_at<4>(place);
