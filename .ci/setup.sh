@@ -42,6 +42,7 @@ dpkg-dev             dpkg-shlibdeps, for cpack
 test_packages="
 libgtest-dev         gtest
 libgmock-dev         gmock
+libmpfr-dev          mpfr, to which a test compares sines, powers and so on
 python3-xarray       xarray for Python, which reads fields.nc in a test
 python3-netcdf4      netCDF4 for Python
 python3-vtk9         VTK for Python, which reads fields.nc in a test

@@ -1,9 +1,8 @@
 // What the step loop asks of the processor: large pages of memory, prefetching, no denormal numbers, and its
-// clock. They are there for speed, and only one of them touches results: denormal numbers count as zero.
-// Keep this header light: hot code includes it.
+// clock. They are there for speed, and only one of them touches results: with laws of floats, denormal
+// numbers count as zero. Keep this header light: hot code includes it.
 #pragma once
 
-#include <xmmintrin.h>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -14,6 +13,9 @@
 
 #if defined(__linux__)
 #include <sys/mman.h>
+#endif
+#if defined(__SSE2__)
+#include <xmmintrin.h>
 #endif
 
 namespace grainreel {
@@ -102,18 +104,49 @@ class Ahead {
     std::uintptr_t calls_ = 1;
 };
 
-// While this lives, denormal numbers (those too small for full precision) count as zero. A processor needs a
-// hundred times as long for them, and grains at rest make many, above all in single precision.
+// While this lives, denormal numbers (those too small for full precision) count as zero in this thread, if
+// the processor can do that. A processor needs a hundred times as long for them, and grains at rest make many
+// in single precision. In double precision the step loop lets none arise (kNoMotion), so that its bits do not
+// depend on this.
 class FlushDenormals {
   public:
-    FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | results_to_zero | inputs_to_zero); }
-    ~FlushDenormals() { _mm_setcsr(before_); }
+    explicit FlushDenormals(bool on = true) : before_(control()) {
+        if (on) set_control(before_ | to_zero);
+    }
+    ~FlushDenormals() { set_control(before_); }
     FlushDenormals(const FlushDenormals&) = delete;
     FlushDenormals& operator=(const FlushDenormals&) = delete;
 
   private:
-    static constexpr unsigned results_to_zero = 0x8000, inputs_to_zero = 0x0040;
-    unsigned before_;
+#if defined(__SSE2__)
+    using Control = unsigned;
+    static constexpr Control to_zero = 0x8000 | 0x0040;  // results and inputs
+    static Control control() {
+        return _mm_getcsr();
+    }
+    static void set_control(Control word) {
+        _mm_setcsr(word);
+    }
+#elif defined(__aarch64__)
+    using Control = std::uint64_t;
+    static constexpr Control to_zero = Control{1} << 24;  // FZ: results and inputs
+    static Control control() {
+        Control word;
+        asm volatile("mrs %0, fpcr" : "=r"(word));
+        return word;
+    }
+    static void set_control(Control word) {
+        asm volatile("msr fpcr, %0" : : "r"(word));
+    }
+#else
+    using Control = unsigned;
+    static constexpr Control to_zero = 0;
+    static Control control() {
+        return 0;
+    }
+    static void set_control(Control) {}
+#endif
+    Control before_;
 };
 
 // The processor's own clock. It is cheap to read, but the length of a tick is not known, so it only tells how

@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/vector.hpp"
 
 namespace grainreel {
@@ -58,7 +59,7 @@ class Random {
     // A normal number with mean 0 and standard deviation 1 (Box & Muller 1958).
     double normal() {
         const double u = 1 - uniform(), v = uniform();
-        return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+        return std::sqrt(-2 * math::log(u)) * math::cos(2 * std::numbers::pi * v);
     }
 
   private:

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/scene/scene.hpp"
@@ -99,7 +100,7 @@ std::optional<OutflowSums> OutflowSums::read(const std::filesystem::path& file, 
 }
 
 void OutflowSums::add(double time, std::int32_t species, double radius) {
-    const double volume = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
+    const double volume = 4.0 / 3 * std::numbers::pi * math::cube(radius);
     const double before = mass_.empty() ? 0 : mass_.back();
     times_.push_back(time);
     mass_.push_back(before + volume * densities_.at(static_cast<std::size_t>(species)));

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/scene/drive_schedule.hpp"
 
 namespace grainreel {
@@ -53,7 +54,7 @@ class FormulaWriter {
     // A sine with constant amplitude and frequency. phase (rad) is an expression.
     void sine(const std::string& on, double amplitude, double frequency, const std::string& phase) {
         const double w = 2 * pi * frequency;
-        const std::string start = drive_.ramp > 0 ? "" : "-" + number(std::sin(2 * pi * drive_.phase));
+        const std::string start = drive_.ramp > 0 ? "" : "-" + number(math::sin(2 * pi * drive_.phase));
         part(on, fmt::format("{}*(sin({}){})", number(amplitude), phase, start),
              fmt::format("{}*cos({})", number(amplitude * w), phase),
              fmt::format("{}*sin({})", number(amplitude * w * w), phase));
@@ -128,7 +129,7 @@ void FormulaWriter::change(const std::string& stem, const std::string& on, const
     const std::string dda =
         add(name("dda"),
             fmt::format("({0}-4.0*{1}*{2}+{3}*(6.0*{2}*{2}-2.0*{4}))/({5}*{5})", ddl, dl, g, l, h, w));
-    const double start = drive_.ramp > 0 ? 0 : std::sin(2 * pi * drive_.phase);
+    const double start = drive_.ramp > 0 ? 0 : math::sin(2 * pi * drive_.phase);
     const std::string sine = add(name("n"), fmt::format("sin({})-{}", phase, number(start)));
     // z = a n, with n = sin p - sin phi: z'' = a'' n + 2 a' w cos p + a (w' cos p - w^2 sin p).
     part(on, fmt::format("{}*{}", a, sine), fmt::format("{}*{}+{}*{}*cos({})", da, sine, a, w, phase),

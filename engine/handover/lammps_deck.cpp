@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <numbers>
 #include <set>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/handover/carry.hpp"
 #include "engine/handover/decks.hpp"
 
@@ -281,7 +281,7 @@ class LammpsDeck {
         for (std::size_t t = 0; t < carried_.type_count(); ++t) {
             const CarriedType& type = carried_.types[t];
             const double force =
-                std::numbers::pi / 6 * std::pow(type.mean, 3) * type.density * carried_.packing_drag;
+                std::numbers::pi / 6 * math::cube(type.mean) * type.density * carried_.packing_drag;
             if (t == 0)
                 first = force;
             else

@@ -1,4 +1,5 @@
 // Writes the deck of LIGGGHTS: laws, walls of triangles, exit and feeds, forces, and times.
+#include "engine/base/mathematics.hpp"
 #include "engine/handover/decks.hpp"
 
 #include <algorithm>
@@ -207,7 +208,7 @@ class Deck {
                 // The square in the circle, unless all corners of the box are in it.
                 const double most = face.radius - radius;
                 const Vec3 corner = low.cwiseAbs().cwiseMax(high.cwiseAbs());
-                if (std::hypot(corner.x(), corner.y()) <= most) continue;
+                if (math::hypot(corner.x(), corner.y()) <= most) continue;
                 for (int k = 0; k < 2; ++k) {
                     low[k] = std::max(low[k], face.point[k] - most / std::numbers::sqrt2);
                     high[k] = std::min(high[k], face.point[k] + most / std::numbers::sqrt2);
@@ -272,7 +273,7 @@ class Deck {
         double first = 0;
         for (std::size_t t = 0; t < carried_.types.size(); ++t) {
             const CarriedType& type = carried_.types[t];
-            const double mass = std::numbers::pi / 6 * std::pow(type.mean, 3) * type.density;
+            const double mass = std::numbers::pi / 6 * math::cube(type.mean) * type.density;
             if (t == 0)
                 first = mass * carried_.packing_drag;
             else

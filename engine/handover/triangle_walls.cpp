@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/mesh/surface.hpp"
 
 namespace grainreel {
@@ -78,7 +79,7 @@ Polygon cut_to_room(Polygon polygon, const Room& room, const TriangleWall& wall)
     const double apothem = kOctagon * turning_radius(room, wall);
     const Vec3 u = wall.axis.unitOrthogonal(), v = wall.axis.cross(u);
     for (int k = 0; k < 8; ++k) {
-        const Vec3 out = std::cos(k * kPi / 4) * u + std::sin(k * kPi / 4) * v;
+        const Vec3 out = math::cos(k * kPi / 4) * u + math::sin(k * kPi / 4) * v;
         polygon = cut(polygon, wall.through + apothem * out, -out);
     }
     return polygon;

@@ -1,4 +1,5 @@
 // Makes triangles of the shapes that walls have: polygons cut to a box, tubes, plates with a round hole.
+#include "engine/base/mathematics.hpp"
 #include "engine/handover/triangle_walls.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ constexpr double kTiny = 1e-12;  // m2; a triangle is left out if twice its area
 
 double angle_at(const Vec3& corner, const Vec3& a, const Vec3& b) {
     const Vec3 u = a - corner, v = b - corner;
-    return std::atan2(u.cross(v).norm(), u.dot(v));
+    return math::atan2(u.cross(v).norm(), u.dot(v));
 }
 
 double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -50,7 +51,7 @@ void add_quad(const std::array<Vec3, 4>& q, TriangleMesh& mesh) {
 
 // The point where a ray from the middle meets the rectangle.
 Vec3 on_rectangle(const Vec3& middle, double angle, const Vec3& low, const Vec3& high) {
-    const double x = std::cos(angle), y = std::sin(angle);
+    const double x = math::cos(angle), y = math::sin(angle);
     double far = INFINITY;
     if (x > 1e-12) far = std::min(far, (high.x() - middle.x()) / x);
     if (x < -1e-12) far = std::min(far, (low.x() - middle.x()) / x);
@@ -109,13 +110,13 @@ void add_polygon(const Polygon& polygon, TriangleMesh& mesh) {
 }
 
 void add_tube(const Vec3& axis, double radius, double low, double high, int facets, TriangleMesh& mesh) {
-    const double half = kPi / facets, corner = radius * half / std::sin(half);
+    const double half = kPi / facets, corner = radius * half / math::sin(half);
     const double width = 2 * radius * half;
     const int rows = std::max(1, static_cast<int>(std::ceil((high - low) / (kFattest * width))));
     const auto at = [&](int facet, int row) {
         const double angle = 2 * half * (facet % facets);
         const double z = row == rows ? high : low + (high - low) * row / rows;
-        return Vec3(axis.x() + corner * std::cos(angle), axis.y() + corner * std::sin(angle), z);
+        return Vec3(axis.x() + corner * math::cos(angle), axis.y() + corner * math::sin(angle), z);
     };
     for (int row = 0; row < rows; ++row)
         for (int f = 0; f < facets; ++f)
@@ -124,11 +125,11 @@ void add_tube(const Vec3& axis, double radius, double low, double high, int face
 
 void add_plate_with_hole(const Vec3& middle, double hole, const Vec3& low, const Vec3& high, int facets,
                          TriangleMesh& mesh) {
-    const double half = kPi / facets, corner = hole * half / std::sin(half);
+    const double half = kPi / facets, corner = hole * half / math::sin(half);
     std::vector<double> corners;
     for (const double x : {low.x(), high.x()})
         for (const double y : {low.y(), high.y()}) {
-            const double angle = std::atan2(y - middle.y(), x - middle.x());
+            const double angle = math::atan2(y - middle.y(), x - middle.x());
             corners.push_back(angle < 0 ? angle + 2 * kPi : angle);
         }
     std::vector<double> angles = corners;
@@ -141,7 +142,7 @@ void add_plate_with_hole(const Vec3& middle, double hole, const Vec3& low, const
     for (std::size_t k = 0; k < angles.size(); ++k) {
         const double a = angles[k], b = angles[(k + 1) % angles.size()];
         const auto inner = [&](double angle) {
-            return Vec3(middle + corner * Vec3(std::cos(angle), std::sin(angle), 0));
+            return Vec3(middle + corner * Vec3(math::cos(angle), math::sin(angle), 0));
         };
         add_quad({inner(a), on_rectangle(middle, a, low, high), on_rectangle(middle, b, low, high), inner(b)},
                  mesh);
@@ -162,7 +163,7 @@ double smooth_bend(const TriangleMesh& mesh) {
     for (const auto& [edge, normals] : edges) {
         if (normals.size() != 2) continue;
         const double bend =
-            std::atan2(normals[0].cross(normals[1]).norm(), normals[0].dot(normals[1])) / kDegree;
+            math::atan2(normals[0].cross(normals[1]).norm(), normals[0].dot(normals[1])) / kDegree;
         if (bend <= kSmooth) most = std::max(most, 1.01 * bend + 1e-3);
     }
     return most;

@@ -9,6 +9,7 @@
 
 #include <bit>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/vector/twice-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -58,7 +59,7 @@ HWY_INLINE R cube_root(R x) {
 
 template <std::floating_point T>
 HWY_INLINE T any_power(T base, T exponent) {
-    return std::pow(base, exponent);
+    return static_cast<T>(math::pow(base, exponent));
 }
 template <class D>
 HWY_INLINE LanesOf<D> any_power(LanesOf<D> base, LanesOf<D> exponent);
@@ -90,7 +91,7 @@ HWY_INLINE LanesOf<D> any_power(LanesOf<D> base, LanesOf<D> exponent) {
         if (e[k] == 2)
             b[k] *= b[k];
         else if (e[k] != 1 && e[k] != static_cast<hn::TFromD<D>>(1.0 / 3.0))
-            b[k] = std::pow(b[k], e[k]);
+            b[k] = any_power(b[k], e[k]);
     }
     const LanesOf<D> third(1.0 / 3.0);
     return select(exponent == third, cube_root(base), load<LanesOf<D>>(b));

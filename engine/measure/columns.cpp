@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/measure/observer_list.hpp"
 #include "engine/scene/bed.hpp"
 
@@ -102,7 +102,7 @@ double expected_of(const Scene& scene, const std::string& column) {
     if (column == "outflow_kg") return total_mass(scene);
     if (column == "bed_top_m" || is_of_a_species(scene, column, "_height_m")) return scene.container.height;
     if (column == "kinetic_J" && scene.drive.present)
-        return 0.5 * total_mass(scene) * std::pow(scene.drive.top_speed(), 2);
+        return 0.5 * total_mass(scene) * math::square(scene.drive.top_speed());
     return 0;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/mesh/room.hpp"
 #include "engine/mesh/surface.hpp"
@@ -40,7 +41,7 @@ bool finite(const Grains& grains, std::size_t i) {
 }
 
 double largest_mass(const Species& species) {
-    return species.density * std::numbers::pi / 6 * std::pow(species.diameter.largest, 3);
+    return species.density * std::numbers::pi / 6 * math::cube(species.diameter.largest);
 }
 
 // Speed (m/s) of an impact in which two grains, or a grain and a wall, overlap by `depth` (m).

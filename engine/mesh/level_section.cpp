@@ -1,9 +1,10 @@
 #include "engine/mesh/level_section.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <numeric>
+
+#include "engine/base/mathematics.hpp"
 
 namespace grainreel {
 namespace {
@@ -24,8 +25,8 @@ Vec2 crossing(const Vec3& from, const Vec3& to, double z) {
 Vec3 level_direction(int i) {
     // The directions of a quarter turn, exact along the axes.
     static const std::array<Vec3, 4> quarter = [] {
-        const double diagonal = std::numbers::sqrt2 / 2, far = std::cos(std::numbers::pi / 8),
-                     near = std::sin(std::numbers::pi / 8);
+        const double diagonal = std::numbers::sqrt2 / 2, far = math::cos(std::numbers::pi / 8),
+                     near = math::sin(std::numbers::pi / 8);
         return std::array<Vec3, 4>{Vec3(1, 0, 0), Vec3(far, near, 0), Vec3(diagonal, diagonal, 0),
                                    Vec3(near, far, 0)};
     }();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
@@ -44,7 +45,7 @@ void Surface::find_normals() {
 
 void Surface::find_neighbours() {
     neighbours_.resize(mesh_.triangles.size());
-    const double smooth_cosine = std::cos(kSmoothAngle);
+    const double smooth_cosine = math::cos(kSmoothAngle);
     const auto turn = [&](std::int32_t side, std::int32_t other, bool flips) {
         const std::int32_t here = side / 3, there = other / 3;
         const Vec3& n = normal(here);

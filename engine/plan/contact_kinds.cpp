@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/scene/bed.hpp"
 
@@ -19,7 +20,7 @@ double ContactKind::mean_contact_time() const {
     const double heavier = mean.effective_mass / smallest.effective_mass;
     if (pair->modulus == 0) return pair->contact_time * std::sqrt(heavier);
     return pair->contact_time *
-           std::pow(heavier / std::sqrt(mean.effective_radius / smallest.effective_radius), 0.4);
+           math::pow(heavier / std::sqrt(mean.effective_radius / smallest.effective_radius), 0.4);
 }
 
 double ContactKind::smaller_diameter() const {

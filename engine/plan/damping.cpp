@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/base/mathematics.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -35,7 +37,7 @@ double solve(double wanted, double most, const Restitution& restitution, const B
 
 // The dashpot may pull: beta / sqrt(1 - beta^2) = -ln e / pi gives beta.
 double logarithmic(double restitution) {
-    const double logarithm = -std::log(restitution);
+    const double logarithm = -math::log(restitution);
     return logarithm / std::sqrt(pi * pi + logarithm * logarithm);
 }
 
@@ -44,10 +46,10 @@ double logarithmic(double restitution) {
 double linear_restitution(double beta, bool attraction) {
     if (beta == 0) return 1;
     const double rest = std::sqrt(std::abs(1 - beta * beta));
-    if (attraction) return beta < 1 ? std::exp(-pi * beta / rest) : 0;
-    if (rest < 1e-6) return std::exp(-2);
-    if (beta < 1) return std::exp(-beta / rest * (pi - std::atan2(2 * beta * rest, 1 - 2 * beta * beta)));
-    return std::exp(-beta / rest * std::log((beta + rest) / (beta - rest)));
+    if (attraction) return beta < 1 ? math::exp(-pi * beta / rest) : 0;
+    if (rest < 1e-6) return math::exp(-2);
+    if (beta < 1) return math::exp(-beta / rest * (pi - math::atan2(2 * beta * rest, 1 - 2 * beta * beta)));
+    return math::exp(-beta / rest * math::log((beta + rest) / (beta - rest)));
 }
 
 double linear_damping(double restitution, bool attraction) {
@@ -67,7 +69,7 @@ struct HertzImpact {
 
 HertzImpact hertz_impact(double damping) {
     const auto push = [&](double x, double v) {
-        return x <= 0 ? 0 : -std::pow(x, 1.5) - damping * std::pow(x, 0.25) * v;
+        return x <= 0 ? 0 : -math::pow(x, 1.5) - damping * math::pow(x, 0.25) * v;
     };
     constexpr double h = 1e-3;
     double x = 0, v = 1;
@@ -127,14 +129,14 @@ double integrated_hertz_damping(double restitution) {
 double hertz_restitution(double damping, bool attraction) {
     if (attraction) {  // d = sqrt(5) b, b = -ln e / sqrt(pi^2 + ln^2 e)
         const double b = damping / std::sqrt(5);
-        return b < 1 ? std::exp(-pi * b / std::sqrt(1 - b * b)) : 0;
+        return b < 1 ? math::exp(-pi * b / std::sqrt(1 - b * b)) : 0;
     }
     return hertz_impact(damping).restitution;
 }
 
 double hertz_contact_time(double mass, double k, double speed) {
     constexpr double duration = 2.9432;
-    return duration * std::pow(1.25 * mass / k, 0.4) * std::pow(speed, -0.2);
+    return duration * math::pow(1.25 * mass / k, 0.4) * math::pow(speed, -0.2);
 }
 
 double hertz_damping(double restitution, bool attraction) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/plan_parts.hpp"
@@ -30,7 +31,7 @@ constexpr double plastic_block_speed = 2.2;
 // a bed of n layers a blow passes 2n - 1 contacts before it is back at the plate: e becomes e^(2n-1), and for
 // a deep bed that is the plastic block. (The two ends are derived, the exponent is an estimate.)
 double speed_over_drive(double restitution, double layers) {
-    const double whole = std::min(0.98, std::pow(restitution, 2 * layers - 1));
+    const double whole = std::min(0.98, math::pow(restitution, 2 * layers - 1));
     return std::max(plastic_block_speed, 3 * std::sqrt((1 + whole) / (2 * (1 - whole))));
 }
 
@@ -162,7 +163,7 @@ double lowest_corner(const Scene& scene, const Vec3& low, const Vec3& high) {
 double bed_depth(const Scene& scene) {
     if (!is_space_with_meshes(scene)) return fill_height(scene, settled_solid_fraction);
     const double volume = solid_volume(scene) / settled_solid_fraction;
-    if (!scene.start.region) return std::cbrt(volume);
+    if (!scene.start.region) return math::cbrt(volume);
     const Vec3 size = scene.start.region->high - scene.start.region->low;
     return std::min(volume / (size.x() * size.y()), size.z());
 }

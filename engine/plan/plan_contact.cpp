@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/plan/damping.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/scene/bed.hpp"
@@ -28,7 +29,7 @@ std::string place_of_pair(const Species& a, const Species* b) {
 double contact_time_factor(const PairContact& contact) {
     if (contact.normal == NormalLaw::walton_braun) return pi / 2 * (1 + contact.restitution);
     if (contact.normal_damping) return pi;
-    const double logarithm = std::log(contact.restitution);
+    const double logarithm = math::log(contact.restitution);
     return std::sqrt(pi * pi + logarithm * logarithm);  // pi / sqrt(1 - beta^2)
 }
 
@@ -59,7 +60,7 @@ class Demands {
 void demand_stiffness(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Touching& t,
                       Demands& demands) {
     const double eps = scene.run.overlap;
-    demands.add(t.effective_mass * std::pow(bed.impact_speed / (eps * t.diameter), 2), "impact");
+    demands.add(t.effective_mass * math::square(bed.impact_speed / (eps * t.diameter)), "impact");
     demands.add(static_load(bed, t.diameter) / eps, "static load");
     if (bed.gravity == 0) return;  // the condition of waves is t_c <= 0.1 d / (f h)
     const double share = contact_time_factor(contact) * bed.frequency * bed.height / (0.1 * t.diameter);
@@ -70,12 +71,12 @@ void demand_stiffness(const Scene& scene, const BedPlan& bed, const PairContact&
 void demand_modulus(const Scene& scene, const BedPlan& bed, const Touching& t, Demands& demands) {
     const double allowed = scene.run.overlap * t.diameter, m = t.effective_mass, v = bed.impact_speed;
     const double to_modulus = 0.75 / std::sqrt(t.effective_radius);  // turns k into E*
-    demands.add(to_modulus * 1.25 * m * v * v / std::pow(allowed, 2.5), "impact");
-    demands.add(to_modulus * static_load(bed, t.diameter) * t.diameter / std::pow(allowed, 1.5),
+    demands.add(to_modulus * 1.25 * m * v * v / math::pow(allowed, 2.5), "impact");
+    demands.add(to_modulus * static_load(bed, t.diameter) * t.diameter / math::pow(allowed, 1.5),
                 "static load");
     if (bed.gravity == 0 || v == 0) return;
     const double longest = 0.1 * t.diameter / (bed.frequency * bed.height);
-    demands.add(to_modulus * m * std::pow(hertz_contact_time(1, 1, v) / longest, 2.5), "wave");
+    demands.add(to_modulus * m * math::pow(hertz_contact_time(1, 1, v) / longest, 2.5), "wave");
 }
 
 Stiffness choose_stiffness(const Scene& scene, const BedPlan& bed, const PairContact& contact,
@@ -179,7 +180,7 @@ void plan_hertz(const BedPlan& bed, PairPlan& pair, const PairContact& contact, 
     const double k = 4.0 / 3 * pair.modulus * std::sqrt(smallest.effective_radius);
     const double speed = bed.impact_speed > 0 ? bed.impact_speed
                                               : std::sqrt(0.8 * k / smallest.effective_mass) *
-                                                    std::pow(pair.allowed_overlap, 1.25);
+                                                    math::pow(pair.allowed_overlap, 1.25);
     pair.loading_stiffness = pair.unloading_stiffness = 1.5 * k * std::sqrt(pair.allowed_overlap);
     pair.hertz_damping = hertz_damping(contact.restitution, contact.attraction);
     pair.contact_time = hertz_contact_time(smallest.effective_mass, k, speed);
@@ -230,8 +231,8 @@ double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& 
         double weight = static_load(bed, t.diameter) / pair.loading_stiffness;
         if (pair.modulus > 0) {
             const double k = 4.0 / 3 * pair.modulus * std::sqrt(t.effective_radius);
-            impact = std::pow(1.25 * load * bed.impact_speed * bed.impact_speed / k, 0.4) / t.diameter;
-            weight = std::pow(static_load(bed, t.diameter) * t.diameter / k, 2.0 / 3) / t.diameter;
+            impact = math::pow(1.25 * load * bed.impact_speed * bed.impact_speed / k, 0.4) / t.diameter;
+            weight = math::pow(static_load(bed, t.diameter) * t.diameter / k, 2.0 / 3) / t.diameter;
         }
         largest = std::max({largest, impact, scene.drive.present || bed.gravity > 0 ? weight : 0.0});
     }

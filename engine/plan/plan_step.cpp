@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/plan/plan_parts.hpp"
 
 namespace grainreel {
@@ -101,7 +102,7 @@ double damped_limit(const Mode& mode, double limit) {
 }  // namespace
 
 bool nearly_elastic(double restitution) {
-    return 1 - restitution * restitution < std::pow(std::numbers::pi / 12, 4);
+    return 1 - restitution * restitution < math::pow(std::numbers::pi / 12, 4);
 }
 
 // Walton-Braun: n = 9.5 - 8 ln e steps, at least 12, keep the error of the restitution below 0.005 for e >=
@@ -119,7 +120,7 @@ int steps_per_contact(NormalForce law, double restitution, Accuracy accuracy) {
     const bool dashpot = law == NormalForce::spring_dashpot || law == NormalForce::hertz;
     const double standard = dashpot || nearly_elastic(restitution)
                                 ? 45
-                                : std::max(12.0, std::ceil(9.5 - 8 * std::log(restitution)));
+                                : std::max(12.0, std::ceil(9.5 - 8 * math::log(restitution)));
     return static_cast<int>(std::ceil(more * standard));
 }
 
@@ -155,7 +156,7 @@ StepChoice plan_step(const Scene& scene, const Plan& plan) {
         for (std::size_t m = 0; m < scene.meshes.size(); ++m)
             demand_of(plan.at_mesh(m, a), scene.species[a].name + "-" + scene.meshes[m].name);
         const Species& species = scene.species[a];
-        const double mass = species.density * std::numbers::pi / 6 * std::pow(species.diameter.smallest, 3);
+        const double mass = species.density * std::numbers::pi / 6 * math::cube(species.diameter.smallest);
         const BedModes dense = bed_modes(scene, plan, a, mass);
         const double normal = damped_limit(dense.normal, limit),
                      sideways = damped_sideways_share * damped_limit(dense.sideways, limit);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive_schedule.hpp"
@@ -93,7 +94,7 @@ double farthest_from_axis(const Container& c, const BodyTurn& turn) {
     for (const double z : {0.0, c.height}) {
         for (int k = 0; k < (round ? places : 4); ++k) {
             const double angle = 2 * std::numbers::pi * k / places;
-            const Vec3 at = round ? Vec3(c.half_width * std::cos(angle), c.half_width * std::sin(angle), z)
+            const Vec3 at = round ? Vec3(c.half_width * math::cos(angle), c.half_width * math::sin(angle), z)
                                   : Vec3((k % 2 - 0.5) * c.depth, (k / 2 * 2 - 1) * c.half_width, z);
             farthest = std::max(farthest, distance_from_axis(turn, at));
         }

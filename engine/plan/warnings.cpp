@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/scene/bed.hpp"
@@ -92,7 +93,7 @@ void warn_of_kick(const Scene& scene, Warnings& warnings) {
     const Drive& drive = scene.drive;
     if (!drive.present || drive.ramp > 0 || is_replaced(drive) || scene.start.keep_clock) return;
     if (scene.start.method == Start::Method::grains) return;  // no grain need lie on what moves
-    const double kick = drive.speed() * std::abs(std::cos(2 * std::numbers::pi * drive.phase));
+    const double kick = drive.speed() * std::abs(math::cos(2 * std::numbers::pi * drive.phase));
     if (kick > 0.05 * drive.speed())
         warnings.add(
             "drive.ramp",
@@ -325,7 +326,7 @@ double resting_overlap(const PairPlan& pair, const Species& species, bool into_w
     const double weight = mass_of(species, diameter) * gravity;
     if (pair.modulus == 0) return weight / pair.loading_stiffness;
     const double k = 4.0 / 3 * pair.modulus * std::sqrt(into_wall ? diameter / 2 : diameter / 4);
-    return std::pow(weight / k, 2.0 / 3);
+    return math::pow(weight / k, 2.0 / 3);
 }
 
 void warn_of_rounding(const Scene& scene, const BedPlan& bed, const Kinds& kinds, Warnings& warnings) {

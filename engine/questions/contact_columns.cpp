@@ -4,12 +4,12 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <string>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/text.hpp"
 #include "engine/questions/grain_columns.hpp"
 
@@ -120,7 +120,7 @@ std::vector<double> pressure(const Snapshot& s, const GrainList& grains) {
         sum -= reach * side.outwards().dot(side.force());
     });
     return listed(sums, grains, [&](double sum, std::size_t i) {
-        return sum / (4 * std::numbers::pi * std::pow(s.frame.radius[i], 3));
+        return sum / (4 * std::numbers::pi * math::cube(s.frame.radius[i]));
     });
 }
 

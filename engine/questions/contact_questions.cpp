@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
+#include "engine/base/rotation.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/questions/questions.hpp"
@@ -159,15 +160,15 @@ AnswerTable power_table(const BodyPose& pose, const Forces& on_wall) {
     double torque = 0;
     for (const ContactForce* one : on_wall)
         torque += axis.dot((one->point - centre_of_turn(pose)).cross(one->on_second()));
-    return {"motion",
-            "It moves",
-            {{"torque", Dimension::moment, "of the grains on it, about the axis that it turns about now"},
-             {"power", Dimension::number, "that it gives the grains", "", "W"},
-             {"spin", Dimension::spin, "magnitude"},
-             {"turned", Dimension::degrees, "from rest, up to half a turn"}},
-            {{torque, power, pose.spin.norm(),
-              pose.rotation.angularDistance(Quaternion::Identity()) * 180 / std::numbers::pi}},
-            true};
+    return {
+        "motion",
+        "It moves",
+        {{"torque", Dimension::moment, "of the grains on it, about the axis that it turns about now"},
+         {"power", Dimension::number, "that it gives the grains", "", "W"},
+         {"spin", Dimension::spin, "magnitude"},
+         {"turned", Dimension::degrees, "from rest, up to half a turn"}},
+        {{torque, power, pose.spin.norm(), rotation_vector(pose.rotation).norm() * 180 / std::numbers::pi}},
+        true};
 }
 
 // Forces on a wall by height, in bins as high as the mean diameter of the grains.

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/mathematics.hpp"
+
 namespace grainreel {
 
 Expression::Expression(std::string_view text, const Vocabulary& words) {
@@ -51,7 +53,7 @@ double Expression::of(std::size_t at, const std::vector<double>& values) const {
         case Op::negative:
             return -first();
         case Op::power:
-            return std::pow(first(), node.value);
+            return math::pow(first(), node.value);
         case Op::absolute:
             return std::abs(first());
         case Op::root:

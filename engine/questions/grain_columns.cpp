@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/questions/expression.hpp"
@@ -164,7 +164,7 @@ double height(const Snapshot& s, std::size_t i) {
 
 double from_axis(const Snapshot& s, std::size_t i) {
     const Vec3 from = s.frame.position[i] - container_offset(s.scene, s.frame);
-    return std::hypot(from.x(), from.y());
+    return math::hypot(from.x(), from.y());
 }
 
 template <int axis>

@@ -12,7 +12,9 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
+#include "engine/base/rotation.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/mesh/room.hpp"
@@ -188,7 +190,7 @@ AnswerTable bodies_table(const Snapshot& s) {
         true};
     const auto add = [&](const std::string& name, AnswerCell triangles, const BodyPose& pose) {
         table.rows.push_back({name, std::move(triangles), pose.place.x(), pose.place.y(), pose.place.z(),
-                              pose.rotation.angularDistance(Quaternion::Identity()) * 180 / std::numbers::pi,
+                              rotation_vector(pose.rotation).norm() * 180 / std::numbers::pi,
                               pose.velocity.norm(), pose.spin.norm()});
     };
     if (s.scene.container.turn) add("container", {}, s.frame.container());
@@ -270,7 +272,7 @@ bool outside(const Snapshot& s, std::size_t i) {
     if (c.turn) return outside_turned(s, i);
     const Vec3 at = s.frame.position[i] - container_offset(s.scene, s.frame);
     if (s.height(i) < -r) return true;
-    if (c.shape == Container::Shape::cylinder) return std::hypot(at.x(), at.y()) > c.half_width + r;
+    if (c.shape == Container::Shape::cylinder) return math::hypot(at.x(), at.y()) > c.half_width + r;
     return std::abs(at.y()) > c.half_width + r;
 }
 

@@ -10,6 +10,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
@@ -50,7 +51,7 @@ Bins bins_along(const Snapshot& s, const std::vector<double>& at, double low) {
         bin.speed += s.frame.velocity[i].norm();
         bin.upward += s.frame.velocity[i].z();
         bin.volume[static_cast<std::size_t>(s.frame.species[i])] +=
-            4.0 / 3.0 * std::numbers::pi * std::pow(s.frame.radius[i], 3);
+            4.0 / 3.0 * std::numbers::pi * math::cube(s.frame.radius[i]);
     }
     return all;
 }

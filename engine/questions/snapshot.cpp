@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -33,7 +34,7 @@ double Snapshot::density(std::size_t i) const {
 }
 
 double Snapshot::mass(std::size_t i) const {
-    return density(i) * 4.0 / 3.0 * std::numbers::pi * std::pow(frame.radius[i], 3);
+    return density(i) * 4.0 / 3.0 * std::numbers::pi * math::cube(frame.radius[i]);
 }
 
 double Snapshot::mean_diameter() const {

@@ -7,14 +7,15 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 
 namespace grainreel {
 
 double student_probability(double t, int freedom) {
-    const double angle = std::atan2(t, std::sqrt(freedom));  // theta of 26.7.3
-    const double cosine = std::cos(angle), sine = std::sin(angle);
+    const double angle = math::atan2(t, std::sqrt(freedom));  // theta of 26.7.3
+    const double cosine = math::cos(angle), sine = math::sin(angle);
     const bool odd = freedom % 2 == 1;
     // The series is cos + 2/3 cos^3 + ..., up to cos^(freedom - 2), or 1 + 1/2 cos^2 + ... up to the same
     // power.

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/measure/columns.hpp"
@@ -136,7 +137,7 @@ MannKendall mann_kendall(const std::vector<double>& values) {
     test.tau = test.s / (0.5 * n * (n - 1));
     if (variance <= 0 || test.s == 0) return test;
     test.z = (test.s > 0 ? test.s - 1 : test.s + 1) / std::sqrt(variance);
-    test.p = std::erfc(std::abs(test.z) / std::sqrt(2.0));
+    test.p = math::erfc(std::abs(test.z) / std::sqrt(2.0));
     return test;
 }
 

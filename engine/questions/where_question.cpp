@@ -6,6 +6,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/questions/expression.hpp"
 #include "engine/questions/grain_columns.hpp"
@@ -109,7 +110,7 @@ Answer slice_answer(const Snapshot& s, const std::string& plane, std::size_t mos
     for (std::size_t i = 0; i < s.frame.size(); ++i)
         if (off(i) < s.frame.radius[i]) found.push_back(i);
     const auto circle = [&](std::size_t i) {
-        return std::sqrt(std::pow(s.frame.radius[i], 2) - std::pow(off(i), 2));
+        return std::sqrt(math::square(s.frame.radius[i]) - math::square(off(i)));
     };
     AnswerTable areas{
         "areas",
@@ -123,7 +124,7 @@ Answer slice_answer(const Snapshot& s, const std::string& plane, std::size_t mos
     std::vector<std::int64_t> count(area.size(), 0);
     double all = 0;
     for (const std::size_t i : found) {
-        const double own = std::pow(circle(i), 2);
+        const double own = math::square(circle(i));
         const auto species = static_cast<std::size_t>(s.frame.species[i]);
         ++count[species], area[species] += own, all += own;
     }

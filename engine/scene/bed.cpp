@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/mesh/room.hpp"
 
 namespace grainreel {
@@ -20,9 +21,9 @@ double mean_cube(const SizeSpread& d) {
     }
     // The variance of a normal distribution that is cut off at two deviations, divided by that of the whole
     // distribution, is 1 - 4 phi(2) / erf(sqrt 2).
-    const double density_at_cut = std::exp(-2.0) / std::sqrt(2 * std::numbers::pi);
+    const double density_at_cut = math::exp(-2.0) / std::sqrt(2 * std::numbers::pi);
     const double variance =
-        d.deviation * d.deviation * (1 - 4 * density_at_cut / std::erf(std::numbers::sqrt2));
+        d.deviation * d.deviation * (1 - 4 * density_at_cut / (1 - math::erfc(std::numbers::sqrt2)));
     return d.mean * d.mean * d.mean + 3 * d.mean * variance;
 }
 
@@ -85,7 +86,7 @@ double fill_height(const Scene& scene, double solid_fraction) {
     if (c.shape == Container::Shape::mesh) return filled_to(*c.room, volume);
     if (c.shape != Container::Shape::wedge) return c.height * volume / c.volume();
     const double floor = c.floor_half_width();
-    const double slope = std::tan(c.half_angle);
+    const double slope = math::tan(c.half_angle);
     const double slanted = c.depth * c.slant_height * (floor + c.half_width);
     if (volume > slanted) return c.slant_height + (volume - slanted) / (2 * c.depth * c.half_width);
     // Solves depth * (2 floor h + slope h^2) = volume, in a form that also holds for slope 0.
@@ -141,7 +142,7 @@ Extent extent_of_grains(const Scene& scene) {
     const Vec3 margin = largest_diameter(scene) * Vec3::Ones();
     if (scene.start.region) return {scene.start.region->low, scene.start.region->high};
     if (scene.start.grains.empty()) {
-        const double side = std::cbrt(solid_volume(scene) / 0.2);
+        const double side = math::cbrt(solid_volume(scene) / 0.2);
         return {-0.5 * side * Vec3::Ones() - margin, 0.5 * side * Vec3::Ones() + margin};
     }
     Extent extent{scene.start.grains[0].position, scene.start.grains[0].position};

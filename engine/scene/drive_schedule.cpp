@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 
 namespace grainreel {
@@ -130,7 +131,8 @@ DrivePeaks drive_peaks(const Drive& drive) {
     const double omega = 2 * std::numbers::pi * drive.frequency;
     // Without a ramp the sine may begin at any phase. The offset counts from where the container is then, so
     // it can be larger than the amplitude.
-    const double farthest = 1 + (drive.ramp > 0 ? 0 : std::abs(std::sin(2 * std::numbers::pi * drive.phase)));
+    const double farthest =
+        1 + (drive.ramp > 0 ? 0 : std::abs(math::sin(2 * std::numbers::pi * drive.phase)));
     DrivePeaks peaks{drive.frequency, farthest * drive.amplitude, drive.speed(),
                      drive.amplitude * omega * omega};
     if (!drive.changes()) return peaks;
@@ -190,9 +192,9 @@ DriveChange::Values DriveChange::at(double u) const {
 
 // z = a sin p with p' = w: z' = a' sin p + a w cos p, z'' = (a'' - a w^2) sin p + (2 a' w + a w') cos p.
 Envelope envelope_of(const DriveChange::Values& v) {
-    return {v.amplitude, std::hypot(v.amplitude_rate, v.amplitude * v.omega),
-            std::hypot(v.amplitude_rate2 - v.amplitude * v.omega * v.omega,
-                       2 * v.amplitude_rate * v.omega + v.amplitude * v.omega_rate)};
+    return {v.amplitude, math::hypot(v.amplitude_rate, v.amplitude * v.omega),
+            math::hypot(v.amplitude_rate2 - v.amplitude * v.omega * v.omega,
+                        2 * v.amplitude_rate * v.omega + v.amplitude * v.omega_rate)};
 }
 
 }  // namespace grainreel

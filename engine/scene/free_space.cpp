@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/mesh/room.hpp"
 #include "engine/mesh/surface.hpp"
 
@@ -19,9 +20,9 @@ bool in_container(const Container& c, const Vec3& place, double margin) {
     }
     if (place.z() < margin || place.z() > c.height - margin) return false;
     if (c.shape == Container::Shape::cylinder)
-        return std::hypot(place.x(), place.y()) <= c.half_width - margin;
+        return math::hypot(place.x(), place.y()) <= c.half_width - margin;
     const bool slanted = c.shape == Container::Shape::wedge && place.z() < c.slant_height;
-    const double slope = slanted ? std::cos(c.half_angle) : 1;
+    const double slope = slanted ? math::cos(c.half_angle) : 1;
     if (std::abs(place.y()) > c.half_width_at(place.z()) - margin / slope) return false;
     return c.periodic_depth || std::abs(place.x()) <= c.depth / 2 - margin;
 }

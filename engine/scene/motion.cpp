@@ -12,8 +12,10 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/rotation.hpp"
 #include "engine/base/text.hpp"
 #include "engine/mesh/load_mesh.hpp"
 
@@ -42,7 +44,7 @@ void check_start(const MotionPath& path, const PathRows& rows, const std::filesy
     Vec3 low(0, 0, 0), high(0, 0, 0);
     for (const Vec3& place : rows.places) low = low.cwiseMin(place), high = high.cwiseMax(place);
     const Vec3 place = start.place - path.pivot() + start.rotation * path.pivot();
-    const bool turned = Eigen::AngleAxisd(start.rotation).angle() > same;
+    const bool turned = rotation_vector(start.rotation).norm() > same;
     if (place.norm() <= same * (high - low).norm() && !turned) return;
     throw UserError(fmt::format(
         "{}: at 0 s the path is at ({:.6g}, {:.6g}, {:.6g}) m{}, but places count from where the mesh rests, "
@@ -277,7 +279,7 @@ class PathReader {
     void check_turns() const {
         constexpr double most = 2;  // rad, from row to row
         for (std::size_t i = 1; i < rows.turns.size(); ++i) {
-            const double angle = 2 * std::acos(std::min(1.0, rows.turns[i].dot(rows.turns[i - 1])));
+            const double angle = 2 * math::acos(std::min(1.0, rows.turns[i].dot(rows.turns[i - 1])));
             if (angle > most)
                 fail_at(rows.lines[i],
                         fmt::format("the path turns by {:.4g} rad since line {}, which might go either way "

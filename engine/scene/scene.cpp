@@ -1,12 +1,13 @@
 #include "engine/scene/scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
+#include "engine/base/rotation.hpp"
 #include "engine/mesh/room.hpp"
 
 namespace grainreel {
@@ -22,7 +23,7 @@ double Container::floor_half_width() const {
 double Container::half_width_at(double z) const {
     if (shape == Shape::mesh) return room->half_width_at(z);
     if (shape != Shape::wedge) return half_width;
-    return half_width - std::max(0.0, slant_height - z) * std::tan(half_angle);
+    return half_width - std::max(0.0, slant_height - z) * math::tan(half_angle);
 }
 
 double Container::volume() const {
@@ -45,7 +46,7 @@ bool Contact::rubs() const {
 }
 
 Quaternion AxisRotation::quaternion() const {
-    return Quaternion(Eigen::AngleAxisd(angle, axis));
+    return rotation_about(axis, angle);
 }
 
 bool SceneMesh::operator==(const SceneMesh& other) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/mesh/surface.hpp"
@@ -203,7 +204,7 @@ bool same_grain(const Grains& one, std::size_t i, const Grains& other, std::size
     const Place &here = one.place[i], &there = other.place[j];
     // x is not compared, because a periodic depth may have wrapped it.
     const Vec3 apart = here.position - there.position - offset;
-    return here.radius == there.radius && std::hypot(apart.y(), apart.z()) < kRounding * here.radius &&
+    return here.radius == there.radius && math::hypot(apart.y(), apart.z()) < kRounding * here.radius &&
            one.species[i] == other.species[j];
 }
 

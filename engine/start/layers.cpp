@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/random.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
@@ -78,7 +79,7 @@ double mean_diameter(const Species& s) {
 }
 
 double solid_volume(const Species& s) {
-    return static_cast<double>(s.count) * std::numbers::pi / 6 * std::pow(mean_diameter(s), 3);
+    return static_cast<double>(s.count) * std::numbers::pi / 6 * math::cube(mean_diameter(s));
 }
 
 }  // namespace

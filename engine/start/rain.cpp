@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numbers>
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/measure/health.hpp"
 #include "engine/mesh/surface.hpp"
@@ -110,7 +110,7 @@ class Shower {
             if (!place) break;
             next_.position = *place;
             more.push_back(next_);
-            solid_ += 4.0 / 3 * std::numbers::pi * std::pow(next_.radius, 3);
+            solid_ += 4.0 / 3 * std::numbers::pi * math::cube(next_.radius);
             if (++come_ < scene_.grains_at_start()) next_ = cloud_.next();
         }
         return more;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/bed_in_file.hpp"
@@ -69,7 +70,7 @@ bool is_at_rest(const BedInFile& bed) {
 double expected_speed(const Scene& scene, const BedInFile& bed) {
     if (bed.origin) return std::max(bed.origin->plan.impact_speed, bed.fastest);
     if (!is_at_rest(bed)) return bed.falls;
-    return std::hypot(bed.fastest, std::sqrt(2 * scene.gravity.norm() * mean_diameter(scene)));
+    return math::hypot(bed.fastest, std::sqrt(2 * scene.gravity.norm() * mean_diameter(scene)));
 }
 
 StartFacts facts_of(const Scene& scene, const BedInFile& bed) {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
+#include "engine/base/rotation.hpp"
 
 namespace grainreel {
 
@@ -31,7 +33,7 @@ std::vector<Body> bodies_of(const Scene& scene) {
 BodyPose Body::at(const Pose& drive) const {
     BodyPose pose{place_at(drive), Quaternion::Identity(), velocity_at(drive), Vec3(0, 0, 0)};
     if (turn) {
-        pose.rotation = Quaternion(Eigen::AngleAxisd(turn->angle_at(drive.time), turn->axis));
+        pose.rotation = rotation_about(turn->axis, turn->angle_at(drive.time));
         pose.spin = turn->rate_at(drive.time) * turn->axis;
         const Vec3 arm =
             pose.rotation * turn->through;  // vector from the body's origin to the point of the axis
@@ -68,6 +70,7 @@ WallMotion::WallMotion(const Drive& drive, const Clock& clock)
       angular_frequency_(2 * std::numbers::pi * drive.frequency),
       ramp_(drive.ramp),
       start_phase_(2 * std::numbers::pi * drive.phase),
+      start_sine_(math::sin(start_phase_)),
       direction_(drive.direction),
       clock_(clock) {
     if (drive.present && drive.changes()) pieces_ = DriveSchedule(drive).pieces();
@@ -92,7 +95,7 @@ WallMotion::Motion WallMotion::before_stages(std::int64_t step, double share_of_
     const double more =
         clock_.steps_per_period > 0 ? share_of_step / static_cast<double>(clock_.steps_per_period) : 0;
     const double angle = 2 * std::numbers::pi * (clock_.phase(step) + more);
-    const double sine = std::sin(angle), cosine = std::cos(angle);
+    const auto [sine, cosine] = math::sin_cos(angle);
     double share = 1, share_rate = 0, start = 0;
     if (ramp_ > 0) {
         const double u = (clock_.cycles(step) + more) / ramp_;
@@ -101,7 +104,7 @@ WallMotion::Motion WallMotion::before_stages(std::int64_t step, double share_of_
             share_rate = smooth_step::slope(u) * angular_frequency_ / (2 * std::numbers::pi * ramp_);
         }
     } else {
-        start = std::sin(start_phase_);
+        start = start_sine_;
     }
     return {amplitude_ * (share * sine - start),
             amplitude_ * (share * angular_frequency_ * cosine + share_rate * sine)};
@@ -122,16 +125,18 @@ WallMotion::Motion WallMotion::in_stretch(std::size_t index, std::int64_t step, 
                              piece.acceleration, changes ? stretch.length * clock_.step : 1};
     const DriveChange::Values now = change.at(changes ? std::min(1.0, (whole + part) / stretch.length) : 1);
     const double angle = start_phase_ + 2 * std::numbers::pi * stretch.turns_after(whole, part);
-    const double sine = std::sin(angle), start = ramp_ > 0 ? 0 : std::sin(start_phase_);
+    const auto [sine, cosine] = math::sin_cos(angle);
+    const double start = ramp_ > 0 ? 0 : start_sine_;
     return {now.amplitude * (sine - start),
-            now.amplitude_rate * (sine - start) + now.amplitude * now.omega * std::cos(angle)};
+            now.amplitude_rate * (sine - start) + now.amplitude * now.omega * cosine};
 }
 
 WallMotion::Motion WallMotion::tap(const DriveSchedule::Piece& piece, double since) {
     const double omega = 2 * std::numbers::pi * piece.frequency;
     if (since * piece.frequency >= 1) return {};
     const double amplitude = piece.acceleration / (omega * omega);
-    return {amplitude * (1 - std::cos(omega * since)), amplitude * omega * std::sin(omega * since)};
+    const auto [sine, cosine] = math::sin_cos(omega * since);
+    return {amplitude * (1 - cosine), amplitude * omega * sine};
 }
 
 }  // namespace grainreel

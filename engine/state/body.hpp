@@ -115,7 +115,7 @@ class WallMotion {
     std::size_t stretch_at(std::int64_t step) const;
 
     bool moving_ = false;
-    double amplitude_ = 0, angular_frequency_ = 0, ramp_ = 0, start_phase_ = 0;
+    double amplitude_ = 0, angular_frequency_ = 0, ramp_ = 0, start_phase_ = 0, start_sine_ = 0;
     std::vector<DriveSchedule::Piece>
         pieces_;  // what the drive does in each stretch of clock_.changes; empty for a drive without stages
     Vec3 direction_{0, 0, 1};

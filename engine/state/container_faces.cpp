@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/output.hpp"
 
@@ -33,7 +33,7 @@ void add_side_walls(const Container& c, std::vector<Face>& faces) {
     faces.push_back(plane("left wall", {0, -c.half_width, 0}, {0, 1, 0}));
     faces.push_back(plane("right wall", {0, c.half_width, 0}, {0, -1, 0}));
     if (c.shape == Container::Shape::wedge && c.half_angle > 0) {
-        const double cosine = std::cos(c.half_angle), sine = std::sin(c.half_angle);
+        const double cosine = math::cos(c.half_angle), sine = math::sin(c.half_angle);
         faces.push_back(plane("left slant", {0, -c.half_width, c.slant_height}, {0, cosine, sine}));
         faces.push_back(plane("right slant", {0, c.half_width, c.slant_height}, {0, -cosine, sine}));
     }
@@ -168,7 +168,7 @@ void end_wall(const Container& container, Face& wall) {
     if (wall.kind == Face::Kind::cylinder || container.shape != Container::Shape::wedge) return;
     const double side = wall.normal.y() < 0 ? 1 : -1;
     if (wall.normal.z() > 0) {
-        wall.along = Vec3(0, side * std::sin(container.half_angle), std::cos(container.half_angle));
+        wall.along = Vec3(0, side * math::sin(container.half_angle), math::cos(container.half_angle));
         wall.edge = Vec3(0, side * container.floor_half_width(), 0);
     } else if (wall.normal.y() != 0) {
         wall.edge.z() = container.slant_height;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/random.hpp"
 #include "engine/scene/bed.hpp"
 
@@ -33,8 +34,8 @@ Patch side_patch(const Container& c, const Face& face) {
     const bool wedge = c.shape == Container::Shape::wedge && c.half_angle > 0;
     const double side = face.normal.y() < 0 ? 1 : -1, left = -c.depth / 2;
     if (face.normal.z() != 0) {  // a slant
-        const double foot = c.floor_half_width(), sine = std::sin(c.half_angle),
-                     cosine = std::cos(c.half_angle);
+        const double foot = c.floor_half_width(), sine = math::sin(c.half_angle),
+                     cosine = math::cos(c.half_angle);
         patch.height = c.slant_height / cosine;
         patch.point = [=](double a, double b) {
             return Vec3(left + a, side * (foot + b * sine), b * cosine);
@@ -61,7 +62,7 @@ Patch end_patch(const Container& c, const Face& face) {
 bool clear_of_outlet(const Container& c, const Vec3& at, double radius) {
     if (!c.outlet) return true;
     const bool slot = c.outlet->shape == Outlet::Shape::slot;
-    return (slot ? std::abs(at.y()) : std::hypot(at.x(), at.y())) >= c.outlet->half_width + radius;
+    return (slot ? std::abs(at.y()) : math::hypot(at.x(), at.y())) >= c.outlet->half_width + radius;
 }
 
 // The patch of the floor or the lid.
@@ -75,7 +76,7 @@ Patch level_patch(const Container& c, const Face& face) {
     patch.closed = c.periodic_depth;
     patch.point = [=](double a, double b) { return Vec3(a - half_depth, b - half_width, z); };
     patch.holds = [&c, round, floor](const Vec3& at, double radius) {
-        if (round && std::hypot(at.x(), at.y()) > c.half_width) return false;
+        if (round && math::hypot(at.x(), at.y()) > c.half_width) return false;
         return !floor || clear_of_outlet(c, at, radius);
     };
     return patch;
@@ -88,7 +89,7 @@ Patch round_patch(const Container& c) {
     patch.height = c.height;
     patch.closed = true;
     patch.point = [=](double a, double b) {
-        return Vec3(radius * std::cos(a / radius), radius * std::sin(a / radius), b);
+        return Vec3(radius * math::cos(a / radius), radius * math::sin(a / radius), b);
     };
     patch.holds = everywhere;
     return patch;

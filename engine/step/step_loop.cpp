@@ -8,6 +8,7 @@
 
 #include "engine/base/binary.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/processor.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/step/forces/contact_forces.hpp"
@@ -41,7 +42,7 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
             if (scheme_.corrects) begin_derivatives(grains_, kicks);
         }
         fresh_ = false;
-        if (drag > 0) kicks.keep = std::exp(-drag * step / static_cast<double>(scheme_.stages.size()));
+        if (drag > 0) kicks.keep = math::exp(-drag * step / static_cast<double>(scheme_.stages.size()));
         const auto work = [&](int member) { run_member(member, from, to, step, kicks); };
         team_.run(std::ref(work));  // by reference: no copy on the heap
         first_step_ = kGoesOn;
@@ -58,7 +59,7 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
 // with the half kick that begins the next step. In most integrators a step has one stage, that is, one
 // evaluation of forces.
 void StepLoop::run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks) {
-    const FlushDenormals flush;
+    const FlushDenormals flush(rules_.has_floats);
     Member& mine = members_[member];
     ThreadContacts& contacts = lists_.contacts(member);
     mine.clock.start();

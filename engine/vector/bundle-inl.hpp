@@ -128,6 +128,13 @@ HWY_INLINE Bundle<size> multiply_add(Bundle<size> a, const Bundle<size>& b, cons
     for (int p = 0; p < a.parts; ++p) a.part[p] = hn::MulAdd(a.part[p], b.part[p], c.part[p]);
     return a;
 }
+// The same, with zero for each number whose size is below `least`.
+template <int size>
+HWY_INLINE Bundle<size> without_tiny(Bundle<size> a, double least) {
+    const typename Bundle<size>::D d;
+    for (auto& part : a.part) part = hn::IfThenZeroElse(hn::Lt(hn::Abs(part), hn::Set(d, least)), part);
+    return a;
+}
 // The larger of a and |b|, number by number.
 template <int size>
 HWY_INLINE Bundle<size> larger_size(Bundle<size> a, const Bundle<size>& b) {

@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/files/foreign/amber_variables.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
@@ -184,7 +185,7 @@ std::optional<WorldCell> AmberFile::box_of(std::size_t frame) const {
         triple("cell_angles", frame).value_or(std::array<double, 3>{90, 90, 90});
     std::array<double, 3> cosines{};
     for (std::size_t i = 0; i < 3; ++i)
-        cosines[i] = angles[i] == 90 || angles[i] == 0 ? 0.0 : std::cos(angles[i] * pi / 180);
+        cosines[i] = angles[i] == 90 || angles[i] == 0 ? 0.0 : math::cos(angles[i] * pi / 180);
     const auto [a, b, c] = *lengths;
     const double sine = std::sqrt(std::max(0.0, 1 - cosines[2] * cosines[2]));
     const double cy = sine > 0 ? (cosines[0] - cosines[1] * cosines[2]) / sine : 0.0;

@@ -9,6 +9,7 @@
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
+#include "engine/base/rotation.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene.hpp"
@@ -69,7 +70,7 @@ void check_own_pose(const BodyPose& is, const BodyPose& by_scene, const std::str
     const auto near = [](const Vec3& a, const Vec3& b) {
         return (a - b).norm() <= same_place * std::max({1.0, a.norm(), b.norm()});
     };
-    const double apart = is.rotation.angularDistance(by_scene.rotation);
+    const double apart = angle_between(is.rotation, by_scene.rotation);
     if (near(is.place, by_scene.place) && near(is.velocity, by_scene.velocity) &&
         near(is.spin, by_scene.spin) && apart <= same_angle)
         return;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
@@ -189,7 +190,7 @@ void add_around_hole(const Polygon& polygon, const Face& face, TriangleMesh& mes
     constexpr int sectors = kFacets / 2;
     for (int k = 0; k < sectors; ++k) {
         const double from = 2 * std::numbers::pi * k / sectors, to = 2 * std::numbers::pi * (k + 1) / sectors;
-        const Vec3 a = std::cos(from) * u + std::sin(from) * v, b = std::cos(to) * u + std::sin(to) * v;
+        const Vec3 a = math::cos(from) * u + math::sin(from) * v, b = math::cos(to) * u + math::sin(to) * v;
         const Vec3 rim = (face.point + face.gap * a + face.point + face.gap * b) / 2;
         Polygon part = clipped(polygon, {face.normal.cross(a), face.normal.cross(a).dot(face.point)});
         part = clipped(part, {-face.normal.cross(b), -face.normal.cross(b).dot(face.point)});
@@ -221,7 +222,7 @@ void add_cylinder(const Face& face, double low, double high, TriangleMesh& mesh)
     const auto first = static_cast<std::int32_t>(mesh.vertices.size());
     for (int k = 0; k < kFacets; ++k) {
         const double angle = 2 * std::numbers::pi * k / kFacets;
-        const Vec3 out(face.radius * std::cos(angle), face.radius * std::sin(angle), 0);
+        const Vec3 out(face.radius * math::cos(angle), face.radius * math::sin(angle), 0);
         mesh.vertices.push_back(Vec3(face.point.x(), face.point.y(), low) + out);
         mesh.vertices.push_back(Vec3(face.point.x(), face.point.y(), high) + out);
     }
@@ -255,9 +256,9 @@ std::vector<HalfSpace> inside_cylinder(const Face& cylinder) {
     std::vector<HalfSpace> sides;
     for (int k = 0; k < kFacets; ++k) {
         const double angle = 2 * std::numbers::pi * (k + 0.5) / kFacets;
-        const Vec3 in(-std::cos(angle), -std::sin(angle), 0);
+        const Vec3 in(-math::cos(angle), -math::sin(angle), 0);
         sides.push_back(
-            {in, in.dot(cylinder.point) - cylinder.radius * std::cos(std::numbers::pi / kFacets)});
+            {in, in.dot(cylinder.point) - cylinder.radius * math::cos(std::numbers::pi / kFacets)});
     }
     return sides;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/random.hpp"
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/peers_bed.hpp"
@@ -281,7 +282,7 @@ friction = 0.5)",
 
 // A twentieth of the space is solid. Elastic walls and nearly elastic grains keep it a gas.
 BenchBed gas(int particles) {
-    const double edge = kSmall * std::cbrt(particles * std::numbers::pi / 6 / 0.05);
+    const double edge = kSmall * math::cbrt(particles * std::numbers::pi / 6 / 0.05);
     BenchBed bed = box("gas.toml", {edge, edge, edge},
                        fmt::format(R"(
 gravity = 0
@@ -296,7 +297,7 @@ friction = 0.1
 stiffness = 1000)",
                                    particles, kSmall),
                        "");
-    const int across = static_cast<int>(std::ceil(std::cbrt(particles)));
+    const int across = static_cast<int>(std::ceil(math::cbrt(particles)));
     Random random(1, Stream::centres);
     bed.grains.reserve(particles);
     for (int site = 0; site < particles; ++site) {

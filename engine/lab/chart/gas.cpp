@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/random.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -12,7 +13,7 @@
 namespace grainreel {
 
 double GasInCube::free() const {
-    return std::cbrt(count() * sphere_volume(bench_radius) / solid_fraction);
+    return math::cbrt(count() * sphere_volume(bench_radius) / solid_fraction);
 }
 
 Gas::Gas(const Plan& plan, const GasInCube& in) : cube(in), world(plan, 0.5 * bench_radius) {

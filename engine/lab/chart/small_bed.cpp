@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/lab/chart/validation/validation.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/run/simulation/simulation.hpp"
@@ -116,7 +116,7 @@ std::vector<BedDifference> bed_differences(const std::vector<BedRow>& rows) {
             const SeedMean should = over_seeds(rows, differences[0].setting, quantity);
             difference = 100 * (is.mean / should.mean - 1);
             const double own = d.setting == differences[0].setting ? 0 : is.error;
-            error = 100 * std::hypot(own, should.error) / should.mean;
+            error = 100 * math::hypot(own, should.error) / should.mean;
         };
         compare(&BedResult::height, d.height, d.height_error);
         compare(&BedResult::temperature, d.temperature, d.temperature_error);

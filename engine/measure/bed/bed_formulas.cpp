@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/segregation/segregation.hpp"
@@ -100,7 +101,7 @@ void PeriodMultiple::end_period() {
 double PeriodMultiple::difference_to(int periods_before) const {
     double sum = 0;
     for (std::size_t i = kPhases * kMost; i < heights_.size(); ++i)
-        sum += std::pow(heights_[i] - heights_[i - static_cast<std::size_t>(periods_before * kPhases)], 2);
+        sum += math::square(heights_[i] - heights_[i - static_cast<std::size_t>(periods_before * kPhases)]);
     return std::sqrt(sum / (kPhases * kWindow));
 }
 

@@ -32,11 +32,13 @@ std::array<double, contact_width> product_of(const Vec3& force, const Vec3& bran
     return all;
 }
 
-// Adds numbers to a cell. It uses Eigen's arrays, because GCC does not vectorise the plain loop.
+// Adds numbers to a cell. GCC makes vector instructions of it only with the copy: the cell might be one of
+// the numbers.
 template <std::size_t Width>
 void add_to(double* cell, const std::array<double, Width>& numbers, double weight) {
-    using Numbers = Eigen::Array<double, static_cast<int>(Width), 1>;
-    Eigen::Map<Numbers>(cell) += weight * Eigen::Map<const Numbers>(numbers.data());
+    std::array<double, Width> sum;
+    for (std::size_t k = 0; k < Width; ++k) sum[k] = cell[k] + weight * numbers[k];
+    std::copy(sum.begin(), sum.end(), cell);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/mesh/room.hpp"
 #include "engine/mesh/surface.hpp"
@@ -73,8 +74,8 @@ double lucy_cutoff(int dimensions) {
 }  // namespace
 
 double kernel_value(FieldOutput::Kernel kind, double q) {
-    if (kind == FieldOutput::Kernel::gaussian) return std::exp(-0.5 * std::pow(gaussian_cutoff * q, 2));
-    return (1 + 3 * q) * std::pow(1 - q, 3);
+    if (kind == FieldOutput::Kernel::gaussian) return math::exp(-0.5 * math::square(gaussian_cutoff * q));
+    return (1 + 3 * q) * math::cube(1 - q);
 }
 
 FieldKernel::FieldKernel(FieldOutput::Kernel kind, double width, int dimensions)
@@ -140,7 +141,7 @@ double quarter_area(double radius, double x, double y) {
     const double sign = (x < 0 ? -1.0 : 1.0) * (y < 0 ? -1.0 : 1.0);
     const double a = std::min(std::abs(x), radius), b = std::min(std::abs(y), radius);
     const auto under_arc = [&](double to) {
-        return 0.5 * (to * std::sqrt(radius * radius - to * to) + radius * radius * std::asin(to / radius));
+        return 0.5 * (to * std::sqrt(radius * radius - to * to) + radius * radius * math::asin(to / radius));
     };
     const double corner =
         std::sqrt(radius * radius - b * b);  // up to this x the rectangle is lower than the arc

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/mathematics.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -178,7 +180,7 @@ std::span<const CellWay> Footprint::of_changing_line(const Vec3& begin, const Ve
         for (const auto& [at, share] : quadrature) {
             const double s = (n + at) / stretches, here = stretch + s * growth, drift = growth / here;
             const Vec3 middle = begin + s * branch;
-            const double part = share * std::pow(here, -grid_.dimensions());
+            const double part = share * math::pow(here, -grid_.dimensions());
             // The drift of a cell along an axis.
             const auto drift_at = [&](std::size_t axis, std::size_t k) {
                 const GridAxis& of = grid_.axes[axis];

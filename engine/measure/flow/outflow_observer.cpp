@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/state/traffic.hpp"
 
@@ -14,7 +15,7 @@ WideInt total(const MassCounts& counts) {
 }
 
 double mass_quantum(double largest) {
-    return largest > 0 ? std::exp2(std::ceil(std::log2(largest)) - 60) : 1;
+    return largest > 0 ? std::ldexp(math::power_of_two_from(largest), -60) : 1;
 }
 
 WideInt mass_count(double mass, double quantum) {

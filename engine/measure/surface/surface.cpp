@@ -4,10 +4,11 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numbers>
 #include <numeric>
-#include <unsupported/Eigen/FFT>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
@@ -62,7 +63,7 @@ class Columns {
                 const double dx = std::max(0.0, std::abs(i + 0.5 - x) - 0.5) * depth_;
                 const double square = grain.radius * grain.radius - dy * dy - dx * dx;
                 if (square > 0) at(j, i).push_back({p.z() - std::sqrt(square), p.z() + std::sqrt(square)});
-                const double to_middle = std::hypot((j + 0.5 - y) * width_, (i + 0.5 - x) * depth_);
+                const double to_middle = math::hypot((j + 0.5 - y) * width_, (i + 0.5 - x) * depth_);
                 if (to_middle < grain.radius) covered_[index(j, i)] = true;
             }
         }
@@ -209,36 +210,31 @@ Mound mound_of(const BedOutline& s) {
             slope_of(s, 0, count)};
 }
 
-struct Spectrum::Plan {
-    explicit Plan(std::size_t count) : bins(count), in(2 * count, 0) {
-        transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+Spectrum::Spectrum(std::size_t bins) : bins_(bins) {
+    for (std::size_t n = 0; n < 2 * bins; ++n) {
+        const auto [sine, cosine] =
+            math::sin_cos(std::numbers::pi * static_cast<double>(n) / static_cast<double>(bins));
+        sines_.push_back(sine), cosines_.push_back(cosine);
     }
+}
 
-    const std::size_t bins;
-    Eigen::FFT<double> transform;  // the object keeps its tables of factors
-    std::vector<double> in;
-    std::vector<std::complex<double>> out;
-};
-
-Spectrum::Spectrum(std::size_t bins) : plan_(std::make_unique<Plan>(bins)) {}
-Spectrum::~Spectrum() = default;
-Spectrum::Spectrum(Spectrum&&) noexcept = default;
-Spectrum& Spectrum::operator=(Spectrum&&) noexcept = default;
-
-DominantWave Spectrum::dominant(const std::vector<double>& heights, double width) {
-    const std::size_t bins = plan_->bins;
-    GRAINREEL_CHECK(heights.size() == bins);
+// The shift by half a bin changes no |H_k|, so the sums leave it out.
+DominantWave Spectrum::dominant(const std::vector<double>& heights, double width) const {
+    GRAINREEL_CHECK(heights.size() == bins_);
     const double mean = mean_height_of(heights), variance = variance_of(heights);
-    for (std::size_t j = 0; j < bins; ++j) plan_->in[j] = heights[j] - mean;
-    plan_->transform.fwd(plan_->out, plan_->in);
     std::size_t dominant = 0;
     double largest = 0;
-    for (std::size_t k = 1; k <= bins / 2; ++k) {
-        const double power = std::norm(plan_->out[k]);
+    for (std::size_t k = 1; k <= bins_ / 2; ++k) {
+        double by_cosine = 0, by_sine = 0;
+        for (std::size_t j = 0, n = 0; j < bins_; ++j, n = (n + k) % (2 * bins_)) {
+            const double height = heights[j] - mean;
+            by_cosine += height * cosines_[n], by_sine += height * sines_[n];
+        }
+        const double power = by_cosine * by_cosine + by_sine * by_sine;
         if (power > largest) largest = power, dominant = k;
     }
     if (dominant == 0 || variance == 0) return {kNoValue, kNoValue};
-    const auto count = static_cast<double>(bins);
+    const auto count = static_cast<double>(bins_);
     return {2 * width / static_cast<double>(dominant), 2 * largest / (count * count * variance)};
 }
 

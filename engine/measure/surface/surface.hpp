@@ -66,22 +66,19 @@ struct DominantWave {
 // Magn. 3, 13), at half and whole numbers of waves across, because standing waves between two walls have
 // both:
 //     H_k = sum over j of (h_j - m) exp(-i pi k (j + 1/2) / N),   wavelength 2 W / k.
-// It is a Fourier transform of twice the length, half of it zeros (by Eigen's KISS FFT). The dominant wave is
+// The sums are made one by one, since there are at most a few hundred bins. The dominant wave is
 // the largest |H_k| of those whose wavelength is at least four bins; and its share in the variance v is 2
 // |H_k|^2 / (N^2 v).
 class Spectrum {
   public:
     explicit Spectrum(std::size_t bins);
-    ~Spectrum();
-    Spectrum(Spectrum&&) noexcept;
-    Spectrum& operator=(Spectrum&&) noexcept;
 
     // `heights` has one value per bin. NaN if the surface is flat or has too few bins for a wave.
-    DominantWave dominant(const std::vector<double>& heights, double width);
+    DominantWave dominant(const std::vector<double>& heights, double width) const;
 
   private:
-    struct Plan;
-    std::unique_ptr<Plan> plan_;
+    std::size_t bins_;
+    std::vector<double> sines_, cosines_;  // of pi n / N, for n = 0 to 2 N - 1
 };
 
 double mean_height_of(const std::vector<double>& heights);

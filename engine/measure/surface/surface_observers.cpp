@@ -1,9 +1,9 @@
 #include "engine/measure/surface/surface_observers.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/measure/measures.hpp"
 
 namespace grainreel {
@@ -64,7 +64,7 @@ double angle_of_repose(std::span<const Place> grains, const DrumAxes& axes, doub
         return grain.position.y() < frame.left || grain.position.y() > frame.right;
     });
     const double third = (frame.right - frame.left) / 3;
-    return std::atan(slope_between(surface_of(seen, frame), frame.left + third, frame.right - third));
+    return math::atan(slope_between(surface_of(seen, frame), frame.left + third, frame.right - third));
 }
 
 double froude_number(double rate, double radius, double gravity) {

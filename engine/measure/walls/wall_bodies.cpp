@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
@@ -55,8 +56,8 @@ double circle_from_axis(const BodyTurn& turn, double radius, double z) {
     double farthest = 0;
     for (int k = 0; k < kPoints; ++k) {
         const double angle = 2 * std::numbers::pi * k / kPoints;
-        farthest =
-            std::max(farthest, from_axis(turn, Vec3(radius * std::cos(angle), radius * std::sin(angle), z)));
+        farthest = std::max(farthest,
+                            from_axis(turn, Vec3(radius * math::cos(angle), radius * math::sin(angle), z)));
     }
     return farthest;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/output.hpp"
 #include "engine/state/body.hpp"
@@ -41,11 +42,11 @@ double area_between(const Container& c, const std::string& face, double low, dou
         return std::max(0.0, std::min(high, to) - std::max(low, from));
     };
     if (face == "wall") return 2 * std::numbers::pi * c.half_width * part(0, c.height);
-    if (face.ends_with(" slant")) return c.depth * part(0, edge) / std::cos(c.half_angle);
+    if (face.ends_with(" slant")) return c.depth * part(0, edge) / math::cos(c.half_angle);
     if (face.ends_with(" wall")) return c.depth * part(edge, c.height);
     if (face != "front" && face != "back") return 0;
     const double slanted = part(0, edge), middle = 0.5 * (std::max(low, 0.0) + std::min(high, edge));
-    const double half = wedge ? c.half_width - (edge - middle) * std::tan(c.half_angle) : 0;
+    const double half = wedge ? c.half_width - (edge - middle) * math::tan(c.half_angle) : 0;
     return 2 * (slanted * half + part(edge, c.height) * c.half_width);
 }
 
@@ -55,8 +56,8 @@ WallScale wall_scale(const Scene& scene, const Plan& plan) {
         for (const PairPlan& wall : *walls)
             stiffest = std::max({stiffest, wall.loading_stiffness, wall.unloading_stiffness});
     WallScale scale;
-    scale.force = std::exp2(std::floor(std::log2(stiffest * largest_radius(scene))) - 48);
-    scale.length = std::exp2(std::ceil(std::log2(extent_of(scene).size().norm())));
+    scale.force = std::ldexp(math::power_of_two_up_to(stiffest * largest_radius(scene)), -48);
+    scale.length = math::power_of_two_from(extent_of(scene).size().norm());
     scale.slices = slices_of(scene);
     scale.slice = scale.slices > 0 ? scene.container.height / scale.slices : 0;
     scale.period = period_of_depth(scene.container);

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "engine/base/mathematics.hpp"
 
 namespace grainreel {
 
@@ -35,7 +36,7 @@ class Pace {
 class RecentRate {
   public:
     void add(double work, double seconds) {
-        const double kept = std::exp(-seconds / memory);
+        const double kept = math::exp(-seconds / memory);
         work_ = kept * work_ + work;
         seconds_ = kept * seconds_ + seconds;
     }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/plain_file.hpp"
 
 namespace grainreel {
@@ -31,7 +32,7 @@ double energy_of(const Frame& frame, std::size_t i, const Scene& scene) {
 // A value rounded up to two digits, so that a colour bar has round ends.
 double rounded_up(double value) {
     if (!(value > 0)) return 0;
-    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+    const double unit = math::pow(10, std::floor(math::log10(value)) - 1);
     return std::ceil(value / unit - 1e-9) * unit;
 }
 
@@ -45,7 +46,7 @@ std::string range_row(const char* quantity, double low, double high) {
 
 void TopOfMost::add(double value) {
     if (!(value >= 0) || !std::isfinite(value)) return;
-    ++classes_[value > 0 ? static_cast<int>(std::floor(classes_a_power * std::log10(value))) : no_size];
+    ++classes_[value > 0 ? static_cast<int>(std::floor(classes_a_power * math::log10(value))) : no_size];
     ++all_;
 }
 
@@ -53,7 +54,8 @@ double TopOfMost::value() const {
     std::int64_t below = 0;
     for (const auto& [size, count] : classes_) {
         below += count;
-        if (100 * below >= 99 * all_) return size == no_size ? 0 : std::pow(10, (size + 1) / classes_a_power);
+        if (100 * below >= 99 * all_)
+            return size == no_size ? 0 : math::pow(10, (size + 1) / classes_a_power);
     }
     return 0;
 }

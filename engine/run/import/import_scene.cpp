@@ -1,5 +1,7 @@
 // Writes the scene file that an imported run is read by: its grains, walls and times, as far as its files
 // say them.
+#include "engine/base/mathematics.hpp"
+#include "engine/base/rotation.hpp"
 #include "engine/run/import/import_run.hpp"
 
 #include <algorithm>
@@ -119,11 +121,11 @@ std::string path_text(const ForeignArchive& archive, std::size_t wall) {
                        to = moments[k].body(kFirstPlaneBody + wall);
         const double begin = moments[k - 1].time, end = moments[k].time;
         if (!(end > begin)) continue;
-        const auto parts = static_cast<int>(1 + from.rotation.angularDistance(to.rotation) / largest);
+        const auto parts = static_cast<int>(1 + angle_between(from.rotation, to.rotation) / largest);
         for (int part = 1; part < parts; ++part) {
             const double share = static_cast<double>(part) / parts;
             BodyPose between;
-            between.rotation = from.rotation.slerp(share, to.rotation);
+            between.rotation = rotation_between(from.rotation, to.rotation, share);
             between.place = from.place + share * (to.place - from.place);
             add_row(text, begin + share * (end - begin), between);
         }
@@ -183,7 +185,7 @@ std::string region_text(const ImportSurvey& survey) {
     constexpr double most_solid = 0.5;  // a scene may have up to 0.55
     const Vec3 size = (survey.high - survey.low).cwiseMax(Vec3::Constant(1e-9));
     const double solid = solid_of(survey) / (most_solid * size.prod());
-    const double grown = std::max(1e-9, 0.5 * (std::cbrt(solid) - 1));
+    const double grown = std::max(1e-9, 0.5 * (math::cbrt(solid) - 1));
     const Vec3 margin = grown * size;
     return fmt::format("region = {{ low = {}, high = {} }}\n", triple(survey.low - margin),
                        triple(survey.high + margin));

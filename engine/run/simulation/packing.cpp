@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/program.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/measure/segregation/segregation.hpp"
@@ -35,7 +36,7 @@ double solid_fraction(const Container& container, const Grains& grains) {
     const double top = std::clamp(bed_height(heights), container.base(), container.height);
     double solid = 0;
     for (const Place& p : grains.place) {
-        if (p.position.z() <= top) solid += 4.0 / 3.0 * std::numbers::pi * std::pow(p.radius, 3);
+        if (p.position.z() <= top) solid += 4.0 / 3.0 * std::numbers::pi * math::cube(p.radius);
     }
     return top > container.base() ? solid / container.volume_below(top) : 0;
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/mesh/room.hpp"
@@ -84,7 +85,7 @@ void check_wedge(const Scene& scene) {
              fmt::format(
                  "is {:.6g} m, more than the height of the container, {:.6g} m; lower it or raise the height",
                  c.slant_height, c.height));
-    const double taken = c.slant_height * std::tan(c.half_angle);
+    const double taken = c.slant_height * math::tan(c.half_angle);
     if (clearly_less(c.half_width, taken))
         fail(
             scene, "container.half_width",
@@ -308,8 +309,8 @@ void check_turn(const Scene& scene) {
     if (scene.drive.present && scene.drive.moves == Drive::Moves::floor)
         refuse("drive.moves = \"floor\"", "take one out, or make the container of [[mesh]]es");
     if (c.shape != Shape::cylinder) return;
-    const double off = std::hypot(c.turn->axis.x(), c.turn->axis.y());
-    const double beside = std::hypot(c.turn->through.x(), c.turn->through.y());
+    const double off = math::hypot(c.turn->axis.x(), c.turn->axis.y());
+    const double beside = math::hypot(c.turn->through.x(), c.turn->through.y());
     if (off > kSameDecimals || beside > kSameDecimals * c.half_width)
         fail(scene, off > kSameDecimals ? "container.turn.axis" : "container.turn.through",
              "must be the cylinder's own axis, z through its middle; lay a drum on its side by the direction "

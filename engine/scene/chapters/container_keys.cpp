@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/mesh/room.hpp"
@@ -120,7 +121,7 @@ BoundKey<C> floor_width_key() {
             document.fail(path, fmt::format("must be less than the {:.6g} m between the walls; narrow it, or "
                                             "raise half_width",
                                             2 * container.half_width));
-        container.slant_height = taken / std::tan(container.half_angle);
+        container.slant_height = taken / math::tan(container.half_angle);
     };
     const auto useless = [](const C& container) -> const char* {
         if (const char* reason = only_of({Shape::wedge}, "only a wedge has slanted walls")(container))

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/base/rotation.hpp"
 #include "engine/base/text.hpp"
 #include "engine/mesh/load_mesh.hpp"
 #include "engine/mesh/room.hpp"
@@ -155,7 +156,7 @@ void take_turn(const SceneMesh& mesh, double duration, Extent& extent) {
     const double angle = mesh.turn->angle_at(duration);
     if (std::abs(angle) >= std::numbers::pi) return take_circles(mesh, extent);
     for (int k = 0; k <= kMoments; ++k) {
-        const Quaternion rotation(Eigen::AngleAxisd(angle * k / kMoments, mesh.turn->axis));
+        const Quaternion rotation = rotation_about(mesh.turn->axis, angle * k / kMoments);
         for (const Vec3& point : points_of(*mesh.surface))
             extent.take(mesh.turn->through + rotation * (point - mesh.turn->through));
     }

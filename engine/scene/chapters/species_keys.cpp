@@ -1,10 +1,10 @@
 // The keys of [[species]].
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/container_keys.hpp"
@@ -84,7 +84,7 @@ void read_mass(Document& document, const Scene&, const std::string& path, Specie
     if (!mass) return;
     const std::string density = parent_of(path) + ".density";
     document.refuse(density, "'mass' is given");
-    species.density = *mass / (std::numbers::pi / 6 * std::pow(species.diameter.mean, 3));
+    species.density = *mass / (std::numbers::pi / 6 * math::cube(species.diameter.mean));
     if (const Range bounds = find_key(density)->bounds(); !bounds.contains(species.density))
         document.fail(path, fmt::format("makes a density of {:.4g} kg/m3, which must be {}; is its unit, or "
                                         "that of the diameter, the one you mean?",

@@ -1,4 +1,5 @@
 // The key of grains that are glued to walls (container.wall_grains), and its checks.
+#include "engine/base/mathematics.hpp"
 #include "engine/scene/chapters/container_keys.hpp"
 
 #include <fmt/format.h>
@@ -123,7 +124,7 @@ void check_faces(const Scene& scene) {
 
 // An upper bound (m2) of the area of any face.
 double largest_face(const Container& c) {
-    const double slope = c.shape == Shape::wedge ? c.slant_height / std::cos(c.half_angle) : 0;
+    const double slope = c.shape == Shape::wedge ? c.slant_height / math::cos(c.half_angle) : 0;
     const double high = std::max({c.height, slope, 2 * c.half_width});
     const double around = c.shape == Shape::cylinder ? 2 * std::numbers::pi * c.half_width : c.depth;
     return high * std::max(around, 2 * c.half_width);

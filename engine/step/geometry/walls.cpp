@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/base/rotation.hpp"
+
 namespace grainreel {
 
 namespace {
@@ -32,10 +34,9 @@ void WallPose::set(const Body& body, const Vec3& rest_point, const Pose& before_
     turned = now.rotation.toRotationMatrix();
     point = now.moved(rest_point);
     if (step > 0) {
-        const Eigen::AngleAxisd turn(now.rotation * before.rotation.conjugate());
         moved = (now.place - before.place) / step;
         rate = (turned - before.rotation.toRotationMatrix()) / step;
-        spin = turn.angle() / step * turn.axis();
+        spin = rotation_vector(now.rotation * before.rotation.conjugate()) / step;
     } else {
         moved = now.velocity;
         for (int a = 0; a < 3; ++a) rate.col(a) = now.spin.cross(turned.col(a));

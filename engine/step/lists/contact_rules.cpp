@@ -75,8 +75,11 @@ ContactRules::ContactRules(const Plan& plan, double period_of_x)
       period(period_of_x),
       rubs(plan.rubs()) {
     group_of_pair = add_groups(plan.grain, true, groups);
-    rounds = std::any_of(groups.begin(), groups.end(),
-                         [](const ContactGroup& group) { return group.number_size() == sizeof(float); });
+    const auto any_of_floats = [this] {
+        return std::any_of(groups.begin(), groups.end(),
+                           [](const ContactGroup& group) { return group.number_size() == sizeof(float); });
+    };
+    rounds = any_of_floats();
     group_of_wall = add_groups(plan.wall, false, groups);
     const std::size_t before_glued = groups.size();
     group_of_glued = add_groups(plan.glued, false, groups);
@@ -84,6 +87,7 @@ ContactRules::ContactRules(const Plan& plan, double period_of_x)
     const std::size_t before_meshes = groups.size();
     group_of_mesh = add_groups(plan.mesh, false, groups);
     for (std::size_t g = before_meshes; g < groups.size(); ++g) groups[g].of_mesh = true;
+    has_floats = any_of_floats();
 }
 
 }  // namespace grainreel

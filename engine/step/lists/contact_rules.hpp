@@ -52,9 +52,10 @@ struct ContactRules {
         group_of_mesh;  // one for each kind
     std::int32_t species;
     LeverArms arms;
-    double period;  // m, of x; 0 for none
-    bool rubs;      // whether any contact has friction
-    bool rounds;    // whether any law of pairs reads Grains::rounded
+    double period;    // m, of x; 0 for none
+    bool rubs;        // whether any contact has friction
+    bool rounds;      // whether any law of pairs reads Grains::rounded
+    bool has_floats;  // whether any law computes with floats
 
     ContactRules(const Plan& plan, double period_of_x);
     bool one_group_of_pairs() const { return groups.size() < 2 || !groups[1].of_pairs; }

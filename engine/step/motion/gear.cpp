@@ -1,4 +1,6 @@
 // Gear's predictor-corrector method.
+#include <cmath>
+
 #include "engine/step/motion/integrate.hpp"
 
 namespace grainreel {
@@ -10,6 +12,16 @@ Vec3 acceleration(const Grains& grains, const KickInput& in, std::int32_t i) {
 }
 Vec3 spin_acceleration(const Grains& grains, std::int32_t i) {
     return grains.motion[i].inverse_inertia * grains.load[i].torque;
+}
+
+// What drag leaves of a velocity or spin.
+Vec3 dragged(Vec3 motion, double keep) {
+    if (keep == 1) return motion;
+    for (double& part : motion) {
+        part *= keep;
+        if (std::abs(part) < kNoMotion) part = 0;
+    }
+    return motion;
 }
 
 }  // namespace
@@ -52,12 +64,12 @@ void correct(Grains& grains, const KickInput& in, std::int32_t begin, std::int32
         Derivatives& d = grains.derivatives[i];
         const Vec3 more = acceleration(grains, in, i) - d.acceleration;
         grains.place[i].position += h * h / 12 * more;
-        grains.motion[i].velocity = (grains.motion[i].velocity + 5 * h / 12 * more) * in.keep;
+        grains.motion[i].velocity = dragged(grains.motion[i].velocity + 5 * h / 12 * more, in.keep);
         d.acceleration += more;
         d.jerk += more / h;
         if (!in.rubs) continue;
         const Vec3 faster = spin_acceleration(grains, i) - d.spin_acceleration;
-        grains.motion[i].spin = (grains.motion[i].spin + 5 * h / 12 * faster) * in.keep;
+        grains.motion[i].spin = dragged(grains.motion[i].spin + 5 * h / 12 * faster, in.keep);
         d.spin_acceleration += faster;
         d.spin_jerk += faster / h;
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/base/rotation.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/step/motion/integrate.cpp"
 #include "engine/vector/targets.hpp"
@@ -103,9 +105,10 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
         Bundle<size> now = bundle_at<size>(motion), gains = gravity;
         if (has_load.value) gains = multiply_add(bundle_at<size>(load), Whole::fourths(motion), gravity);
         if (ends) now = multiply_add(last, gains, now);
-        if (ends && drags) now = now * keep;
+        if (ends && drags) now = without_tiny(now * keep, kNoMotion);
         if (begins) {
             now = multiply_add(next, gains, now);
+            if (drags) now = without_tiny(now, kNoMotion);
             double* place = at.place + 4 * i;
             const double radius = place[3];
             Bundle<4> moved = bundle_at<4>(place);
@@ -178,7 +181,7 @@ namespace {
 Quaternion turned(const Quaternion& q, const Vec3& rate, double step) {
     const double angle = rate.norm() * step;
     if (angle == 0) return q;
-    return (Quaternion(Eigen::AngleAxisd(angle, rate.normalized())) * q).normalized();
+    return (rotation_about(rate.normalized(), angle) * q).normalized();
 }
 
 }  // namespace

@@ -43,6 +43,10 @@ class Loaded {
     std::vector<std::uint64_t> words_;
 };
 
+// Where drag acts, components of velocity (m/s) and spin (rad/s) below this count as zero. Otherwise they
+// would fall until they are denormal numbers, for which a processor needs a hundred times as long.
+constexpr double kNoMotion = 1e-60;
+
 struct KickInput {
     Vec3 gravity{0, 0, 0};     // m/s2
     bool rubs = false;         // spins follow torques

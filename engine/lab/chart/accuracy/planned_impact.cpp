@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/lab/chart/small_world.hpp"
 #include "engine/scene/scene_file.hpp"
 
@@ -63,7 +64,7 @@ double usual_step() {
 Impact make_impact(const ImpactScene& impact, const Plan& plan, double step, double angle, double phase) {
     SmallWorld world(plan, 0.2 * bench_radius);
     world.plan.clock.step = step;
-    const Vec3 velocity = impact.speed * Vec3(std::cos(angle), std::sin(angle), 0);
+    const Vec3 velocity = impact.speed * Vec3(math::cos(angle), math::sin(angle), 0);
     world.add(-phase * step * velocity, velocity);
     if (impact.wall) {
         world.add_plane(Vec3(bench_radius, 0, 0), Vec3(-1, 0, 0));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/lab/chart/small_world.hpp"
 #include "engine/plan/damping.hpp"
 #include "engine/step/motion/scheme.hpp"
@@ -103,8 +104,8 @@ ObliqueRebound oblique(const Method& method, double restitution, double steps, d
     const double time = contact_time(method, restitution, mass(), kRadius), length = time / steps;
     SmallWorld world(pair_of(method, restitution, mass()), length, method.integrator);
     world.add_floor();
-    const double down = kSpeed * std::cos(angle);
-    world.add(Vec3(0, 0, kRadius + 0.5 * down * length), Vec3(kSpeed * std::sin(angle), 0, -down));
+    const double down = kSpeed * math::cos(angle);
+    world.add(Vec3(0, 0, kRadius + 0.5 * down * length), Vec3(kSpeed * math::sin(angle), 0, -down));
     world.start();
     // A grazing impact of a Hertz contact lasts longer: the time grows with speed^(-1/5).
     world.run(static_cast<std::int64_t>(std::ceil(4 * steps)) + 5);
@@ -291,7 +292,7 @@ std::string promised_error_text(double error) {
     if (std::isnan(error)) return "-";
     if (error < 1e-12) return "0";
     error *= 1.01;  // the worst phase lies between those that were tried: 0.6 % more was seen
-    const double digit = std::pow(10, std::floor(std::log10(error)) - 1);
+    const double digit = math::pow(10, std::floor(math::log10(error)) - 1);
     return fmt::format("{:.2g}", digit * std::ceil(error / digit * (1 - 1e-9)));
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
 #include "engine/lab/chart/small_world.hpp"
@@ -176,7 +177,7 @@ std::unique_ptr<SmallWorld> on_a_plate(const PairPlan& pair, int steps_a_period,
     Drive drive;
     drive.present = true;
     drive.frequency = kFrequency;
-    drive.amplitude = g_level * kGravity / std::pow(2 * pi * kFrequency, 2);
+    drive.amplitude = g_level * kGravity / math::square(2 * pi * kFrequency);
     drive.ramp = ramp;
     world.add_floor();
     world.around.faces[0].body.driven = true;
@@ -234,7 +235,8 @@ double steady_error(int steps_a_period) {
     for (int k = 0; k < steps_a_period; ++k) {
         world.run(1);
         const double angle = 2 * pi * world.plan.clock.phase(world.step);
-        const double should = rest + (swing * std::polar(1.0, angle)).imag();
+        const auto [sine, cosine] = math::sin_cos(angle);
+        const double should = rest + swing.real() * sine + swing.imag() * cosine;
         largest = std::max(largest, std::abs(world.position(0).z() - should) / amplitude);
     }
     return largest;
@@ -248,9 +250,9 @@ Finding order_of_walls(bool) {
     const double first = steady_error(counts.front());
     for (const int steps : counts)
         finding.curve.push_back({static_cast<double>(steps), steady_error(steps),
-                                 first * std::pow(static_cast<double>(counts.front()) / steps, 2)});
+                                 first * math::square(static_cast<double>(counts.front()) / steps)});
     const CurvePoint &low = finding.curve[1], &high = finding.curve.back();
-    finding.measured = std::log(low.value / high.value) / std::log(high.x / low.x);
+    finding.measured = math::log(low.value / high.value) / math::log(high.x / low.x);
     return finding;
 }
 
@@ -306,7 +308,7 @@ double force_error(double stiffness, bool in_single, double shift) {
         if (in_single) z = static_cast<float>(z);
         if (k < settling) continue;
         const double overlap = kRadius - (z - plate);
-        squares += std::pow(stiffness * std::max(0.0, overlap) / weight() - 1, 2);
+        squares += math::square(stiffness * std::max(0.0, overlap) / weight() - 1);
     }
     return std::sqrt(squares / looked_at);
 }
@@ -327,8 +329,8 @@ Finding rounding(bool in_single) {
         finding.curve.push_back({share * limit, worst_error(share * limit, in_single), 0.5 * share});
     finding.theory = limit;
     finding.measured =
-        limit * std::exp(last_that_holds(std::log(1e-3), std::log(30.0), 12, [&](double share) {
-            return worst_error(std::exp(share) * limit, in_single) < 0.5;
+        limit * math::exp(last_that_holds(math::log(1e-3), math::log(30.0), 12, [&](double share) {
+            return worst_error(math::exp(share) * limit, in_single) < 0.5;
         }));
     finding.usual = 2e4;
     return finding;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
+#include "engine/base/rotation.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
 #include "engine/lab/chart/small_world.hpp"
@@ -58,7 +60,7 @@ Finding gain_by_friction(bool) {
 // The slip after an impact divided by that before, at 45 degrees and a hundredth of the step.
 Finding sticking(bool) {
     constexpr double e = 0.9, ratio = 0.8;  // K0/K1 by default
-    const double stuck = std::cos(std::sqrt(3.5 * ratio) * pi / 2 * (1 + e));
+    const double stuck = math::cos(std::sqrt(3.5 * ratio) * pi / 2 * (1 + e));
     Finding finding;
     finding.theory = stuck;
     for (const double friction : logarithmic(0.01, 1e6, 17)) {
@@ -67,7 +69,7 @@ Finding sticking(bool) {
         impact.speed /= 100;  // the formula holds for a small overlap
         const Impact after = make_impact(impact, plan, plan.clock.step / 100, pi / 4, 0.5);
         const double slip =
-            (after.velocity[0].y() + bench_radius * after.spin[0].z()) / (impact.speed * std::sin(pi / 4));
+            (after.velocity[0].y() + bench_radius * after.spin[0].z()) / (impact.speed * math::sin(pi / 4));
         const double slid = 1 - 3.5 * friction * (1 + e);  // if it slides all the time (small friction)
         finding.curve.push_back({friction, slip, friction < 0.12 ? slid : friction > 100 ? stuck : unknown});
         finding.measured = slip;
@@ -77,16 +79,16 @@ Finding sticking(bool) {
 
 // Energy after an impact that slides all the time: Delta v_t = mu (1 + e) v_n, r Delta omega = 2.5 Delta v_t.
 double sliding_energy(double e, double friction, double angle) {
-    const double push = friction * (1 + e) * std::cos(angle);
-    return std::pow(e * std::cos(angle), 2) + std::pow(std::sin(angle) - push, 2) +
-           0.4 * std::pow(2.5 * push, 2);
+    const double push = friction * (1 + e) * math::cos(angle);
+    return math::square(e * math::cos(angle)) + math::square(math::sin(angle) - push) +
+           0.4 * math::square(2.5 * push);
 }
 
 Finding grazing_at_a_wall(double e) {
     constexpr double friction = 0.5;
     const ImpactScene impact = on_wall(e, friction);
     const Plan plan = plan_of(impact);
-    const double slides_from = std::atan(friction * std::max(3.5, 3.5 * (1 + e) - 1 / (e * 0.8)));
+    const double slides_from = math::atan(friction * std::max(3.5, 3.5 * (1 + e) - 1 / (e * 0.8)));
     Finding finding;
     finding.theory = kGain;
     finding.measured = 0;
@@ -103,8 +105,8 @@ Finding grazing_at_a_wall(double e) {
 // time before or after the first. Gives the largest energy ratio of all directions and delays.
 double corner_ratio(const Plan& plan, double from_normal, double around) {
     const double step = plan.clock.step, time = plan.wall[0].contact_time, speed = 0.3;
-    const Vec3 velocity = -speed * Vec3(std::sin(from_normal) * std::cos(around),
-                                        std::sin(from_normal) * std::sin(around), std::cos(from_normal));
+    const Vec3 velocity = -speed * Vec3(math::sin(from_normal) * math::cos(around),
+                                        math::sin(from_normal) * math::sin(around), math::cos(from_normal));
     double largest = 0;
     for (double delay = -1; delay <= 1; delay += 0.25) {
         SmallWorld world(plan, 0.2 * bench_radius);
@@ -186,13 +188,13 @@ Turned turn_round(const Vec3& axis, int steps, int turns) {
     const double angle = 2 * pi / steps;
     Turned result;
     for (int k = 1; k <= steps * turns; ++k) {
-        const auto normal_at = [&](double when) { return Vec3(Eigen::AngleAxisd(angle * when, axis) * up); };
+        const auto normal_at = [&](double when) { return Vec3(rotation_about(axis, angle * when) * up); };
         contact.move({normal_at(k), overlap, Vec3::Zero(), angle * axis.dot(normal_at(k - 0.5))});
         result.length_change =
             std::max(result.length_change, std::abs(contact.tangential().norm() / before.norm() - 1));
     }
     const Vec3 after = contact.tangential();
-    result.direction_error = std::atan2(before.cross(after).norm(), before.dot(after));
+    result.direction_error = math::atan2(before.cross(after).norm(), before.dot(after));
     return result;
 }
 
@@ -212,7 +214,7 @@ Finding turning_length(bool) {
 Finding twisting_direction(bool) {
     Finding finding;
     for (const int steps : {12, 24, 50, 100, 200, 500, 1000}) {
-        const double lag = std::pow(2 * pi, 3) / (12.0 * steps * steps);
+        const double lag = math::cube(2 * pi) / (12.0 * steps * steps);
         const double error = turn_round(Vec3(0, 0, 1), steps, 1).direction_error;
         finding.curve.push_back({static_cast<double>(steps), error, lag});
         if (steps != 100) continue;
@@ -262,8 +264,8 @@ struct LoadingCurve {
 LoadingCurve loading_curve(double limit, double slip) {
     const double power = 1 / (1 - kGammaOfSlip), x = 0.8 * bench_stiffness * slip / limit;
     const double rest = 1 - (1 - kGammaOfSlip) * x;
-    const double integral = x - (1 - std::pow(rest, power + 1)) / ((power + 1) * (1 - kGammaOfSlip));
-    return {limit * limit / (0.8 * bench_stiffness) * integral, limit * (1 - std::pow(rest, power))};
+    const double integral = x - (1 - math::pow(rest, power + 1)) / ((power + 1) * (1 - kGammaOfSlip));
+    return {limit * limit / (0.8 * bench_stiffness) * integral, limit * (1 - math::pow(rest, power))};
 }
 
 double made_by_theory(TangentialLaw law, double low, double high) {
@@ -311,15 +313,15 @@ double slip_a_cycle(LeverArms arms, bool swing, int steps) {
     world.plan.arms = arms;
     const SmallWorld::Sphere immovable{bench_radius, 1e18 * bench_density};
     const auto place = [&](int k) {
-        const double psi = 2 * pi * k / steps, angle = swing ? swings * std::sin(psi) : 0;
-        const double apart = 2 * bench_radius - depth * (1 + 0.5 * std::cos(psi));
-        return Vec3(apart * std::cos(angle), apart * std::sin(angle), 0);
+        const double psi = 2 * pi * k / steps, angle = swing ? swings * math::sin(psi) : 0;
+        const double apart = 2 * bench_radius - depth * (1 + 0.5 * math::cos(psi));
+        return Vec3(apart * math::cos(angle), apart * math::sin(angle), 0);
     };
     world.add(Vec3::Zero(), Vec3::Zero(), immovable);
     world.add(place(0), Vec3::Zero(), immovable);
     world.start();
     for (int k = 0; k < cycles * steps; ++k) {
-        const double turn = swings * (std::sin(2 * pi * (k + 1) / steps) - std::sin(2 * pi * k / steps));
+        const double turn = swings * (math::sin(2 * pi * (k + 1) / steps) - math::sin(2 * pi * k / steps));
         world.velocity(1) = (place(k + 1) - world.position(1)) / world.plan.clock.step;
         for (Motion& m : world.grains.motion) m.spin = Vec3(0, 0, turn / world.plan.clock.step);
         world.run(1);

@@ -2,9 +2,9 @@
 // out of reach of the neighbour lists. Also contacts that last too long for their drive.
 
 #include <algorithm>
-#include <complex>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/random.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
@@ -184,8 +184,8 @@ constexpr double kSpeed = 0.3;  // m/s, of an impact
 // Amplitude of the top divided by that of the plate: cos(q/2) / cos((n + 1/2) q) with sin(q/2) = (omega / 2)
 // sqrt(m/K) (derived).
 double chain_gain(int count, double omega) {
-    const double q = 2 * std::asin(0.5 * omega * std::sqrt(bench_mass() / bench_stiffness));
-    return std::cos(q / 2) / std::cos((count + 0.5) * q);
+    const double q = 2 * math::asin(0.5 * omega * std::sqrt(bench_mass() / bench_stiffness));
+    return math::cos(q / 2) / math::cos((count + 0.5) * q);
 }
 
 double measured_gain(int count, double omega) {
@@ -212,12 +212,14 @@ double measured_gain(int count, double omega) {
     }
     world.start();
     world.run(static_cast<std::int64_t>(ramp) * steps);
-    std::complex<double> sum = 0;
+    double by_sine = 0, by_cosine = 0;
     for (int k = 0; k < looked_at * steps; ++k) {
         world.run(1);
-        sum += (world.position(count - 1).z() - z) * std::polar(1.0, -2 * pi * k / steps);
+        const auto [sine, cosine] = math::sin_cos(2 * pi * k / steps);
+        const double moved = world.position(count - 1).z() - z;
+        by_sine += moved * sine, by_cosine += moved * cosine;
     }
-    return 2 * std::abs(sum) / (looked_at * steps) / drive.amplitude;
+    return 2 * math::hypot(by_sine, by_cosine) / (looked_at * steps) / drive.amplitude;
 }
 
 Finding soft_column(bool quick) {
@@ -244,24 +246,25 @@ Finding soft_column(bool quick) {
 // ---- a plate that reverses its motion during an elastic impact; its top speed is the speed of the ball ----
 
 double plate_velocity(double omega, double phase, double t) {
-    return kSpeed * std::cos(omega * t + phase);
+    return kSpeed * math::cos(omega * t + phase);
 }
 
 // Formula for the ball's velocity after the impact: y'' = -W^2 (y - a sin(wt + p)) + constant, until the ball
 // no longer overlaps the plate.
 double rebound_by_theory(double natural, double omega, double phase) {
     const double swing = kSpeed / omega * natural * natural / (natural * natural - omega * omega);
-    const double start = kSpeed / omega * std::sin(phase);  // the plate's place at t = 0, which is subtracted
-    const double a = start - swing * std::sin(phase);
-    const double b = (-kSpeed - swing * omega * std::cos(phase)) / natural;
+    const double start =
+        kSpeed / omega * math::sin(phase);  // the plate's place at t = 0, which is subtracted
+    const double a = start - swing * math::sin(phase);
+    const double b = (-kSpeed - swing * omega * math::cos(phase)) / natural;
     const auto ball = [&](double t) {
-        return a * std::cos(natural * t) + b * std::sin(natural * t) + swing * std::sin(omega * t + phase);
+        return a * math::cos(natural * t) + b * math::sin(natural * t) + swing * math::sin(omega * t + phase);
     };
-    const auto apart = [&](double t) { return ball(t) - kSpeed / omega * std::sin(omega * t + phase); };
+    const auto apart = [&](double t) { return ball(t) - kSpeed / omega * math::sin(omega * t + phase); };
     double t = 1e-3 / natural;
     while (apart(t) < 0 && t < 100 / natural) t += 1e-3 / natural;
-    return natural * (b * std::cos(natural * t) - a * std::sin(natural * t)) +
-           swing * omega * std::cos(omega * t + phase);
+    return natural * (b * math::cos(natural * t) - a * math::sin(natural * t)) +
+           swing * omega * math::cos(omega * t + phase);
 }
 
 double rebound_measured(double natural, double omega, double phase) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/random.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
@@ -53,8 +54,8 @@ double growth_of(SmallWorld& world, const Disturbance& disturbance) {
         now = world.kinetic();
         if (from == begin && now > 1e4 * begin) from = now, since = world.step;
     }
-    if (now < 1e8 * begin) return std::max(1.0, std::pow(now / begin, 0.5 / disturbance.steps));
-    return std::pow(now / from, 0.5 / static_cast<double>(world.step - since));
+    if (now < 1e8 * begin) return std::max(1.0, math::pow(now / begin, 0.5 / disturbance.steps));
+    return math::pow(now / from, 0.5 / static_cast<double>(world.step - since));
 }
 
 // Finds the longest stable step, in units of sqrt(m / K), and the curve of growth against the step. The
@@ -64,7 +65,7 @@ Finding find_limit(const Build& build, const Disturbance& disturbance, double th
                    Integrator integrator = Integrator::velocity_verlet) {
     constexpr double coarse = 0.05;
     // Below the limit Verlet's amplitude swings, but it does not grow by this factor.
-    const double unstable = std::pow(1e4, 1.0 / disturbance.steps);
+    const double unstable = math::pow(1e4, 1.0 / disturbance.steps);
     const auto growth = [&](double share) { return growth_of(*build(share * theory * unit()), disturbance); };
     Finding finding;
     finding.theory = theory;
@@ -115,7 +116,7 @@ Experiment pair_limit(Integrator integrator) {
 // A chain of grains between plates as stiff as the grains: omega = 2 sqrt(K/m) cos(pi / (2 (n + 1))).
 Finding chain_limit(bool) {
     constexpr int count = 20;
-    const double theory = 1 / std::cos(std::numbers::pi / (2 * (count + 1)));
+    const double theory = 1 / math::cos(std::numbers::pi / (2 * (count + 1)));
     return find_limit(
         [](double step) { return column(count, bench_stiffness, step, Integrator::velocity_verlet); },
         along_z, theory);
@@ -223,12 +224,12 @@ double spectral_radius(Matrix power) {
     double logarithm = 0, share = 1;  // logarithm of |A^n|, and 1/n
     for (int doubling = 0; doubling < 48; ++doubling) {
         const double size = power.norm();
-        logarithm += share * std::log(size);
+        logarithm += share * math::log(size);
         power /= size;
         power = (power * power).eval();
         share /= 2;
     }
-    return std::exp(logarithm);
+    return math::exp(logarithm);
 }
 
 // The matrix by which one step acts on (x, v), where x'' = -x.

@@ -2,12 +2,12 @@
 // limits.csv with one row for each experiment, and curves.csv with the measurements on the way to the limit.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/scene/scene.hpp"
 
@@ -67,7 +67,7 @@ double last_that_holds(double low, double high, int halvings, const Holds& holds
 // `count` values from low to high, evenly spread on a logarithmic axis.
 inline std::vector<double> logarithmic(double low, double high, int count) {
     std::vector<double> values;
-    for (int k = 0; k < count; ++k) values.push_back(low * std::pow(high / low, k / (count - 1.0)));
+    for (int k = 0; k < count; ++k) values.push_back(low * math::pow(high / low, k / (count - 1.0)));
     return values;
 }
 

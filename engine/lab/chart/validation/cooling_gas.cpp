@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/gas.hpp"
@@ -34,12 +35,12 @@ Plan gas_plan(const CoolingGas& gas) {
 // (1 - e^2) T.
 double haff_time(const CoolingGas& setting, const Gas& gas) {
     const double solid = setting.solid_fraction, e = setting.restitution;
-    const double g = (1 - solid / 2) / std::pow(1 - solid, 3);
+    const double g = (1 - solid / 2) / math::cube(1 - solid);
     // Two centres a diameter d apart have less space than one in a cube of edge L: the share is the mean of
     // (1 - d|u_x|/L)(1 - d|u_y|/L)(1 - d|u_z|/L) over all directions u, here to first order in d / L.
     const double diameter = 2 * bench_radius, free = gas.cube.free();
     const double near_walls = 1 - 1.5 * diameter / free;
-    const double number_density = gas.cube.count() / std::pow(free, 3);
+    const double number_density = gas.cube.count() / math::cube(free);
     const double rate = 4 * std::sqrt(pi) * number_density * diameter * diameter * g * near_walls *
                         std::sqrt(gas.temperature());
     return 6 / (rate * (1 - e * e));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/small_world.hpp"
@@ -35,13 +36,13 @@ enum class Quantity { tangential_restitution, spin, rebound };
 double measured(const Rebound& after, double degrees, Quantity quantity) {
     switch (quantity) {
         case Quantity::tangential_restitution:
-            return after.tangential / std::sin(degrees * pi / 180);
+            return after.tangential / math::sin(degrees * pi / 180);
         case Quantity::spin:
             return after.spin * kharaz::speed / kharaz::radius;
         case Quantity::rebound:
             break;
     }
-    return std::atan2(after.tangential, after.normal) * 180 / pi;
+    return math::atan2(after.tangential, after.normal) * 180 / pi;
 }
 
 struct Compared {
@@ -96,9 +97,9 @@ std::string binary_rows(const Material& m, const NamedLaw& named, double step) {
     std::string rows;
     const double sliding = 3.5 * (1 + m.e) * m.mu;
     for (double share = step; share < 3.05; share += step) {
-        const double before = share * sliding, angle = std::atan(before);
+        const double before = share * sliding, angle = math::atan(before);
         const Rebound after = rebound(named.law, angle * 180 / pi, Target::equal_sphere);
-        const double is = (after.tangential - after.spin) / std::cos(angle);
+        const double is = (after.tangential - after.spin) / math::cos(angle);
         const double published = std::max(before - sliding, -m.beta0 * before);
         rows += fmt::format("{},{},{:.4f},{:.4f},{:.4f},{:+.4f}\n", m.name, named.name, before, is, published,
                             is - published);
@@ -146,13 +147,13 @@ PairPlan pair_of(const ImpactLaw& law, double effective_mass, double effective_r
     pair.model = {law.normal, law.tangential, false, law.precision};
     pair.restitution = e;
     pair.friction = law.friction;
-    pair.loading_stiffness = effective_mass * std::pow(speed / kDepth, 2);
+    pair.loading_stiffness = effective_mass * math::square(speed / kDepth);
     pair.unloading_stiffness = pair.loading_stiffness / (e * e);
     pair.tangential_ratio = law.stiffness_ratio;
     pair.tangential_stiffness = law.stiffness_ratio * pair.loading_stiffness;
     pair.gamma = 1.0 / 3;
     if (law.normal == NormalForce::hertz) {  // depth = (5 m v^2 / 4k)^(2/5), k = 4/3 E* sqrt R
-        const double k = 1.25 * effective_mass * speed * speed / std::pow(kDepth, 2.5);
+        const double k = 1.25 * effective_mass * speed * speed / math::pow(kDepth, 2.5);
         pair.modulus = 0.75 * k / std::sqrt(effective_radius);
         pair.hertz_damping = hertz_damping(e, false);
     }
@@ -169,7 +170,8 @@ double contact_time(const ImpactLaw& law) {
 Rebound rebound(const ImpactLaw& law, double degrees, Target target) {
     const double mass = density * sphere_volume(radius), share = target == Target::plane ? 1 : 0.5;
     const double length = contact_time(law) / steps_per_contact;
-    const double angle = degrees * pi / 180, along = speed * std::sin(angle), down = speed * std::cos(angle);
+    const double angle = degrees * pi / 180, along = speed * math::sin(angle),
+                 down = speed * math::cos(angle);
     SmallWorld world(pair_of(law, share * mass, share * radius), length);
     const Vec3 approach(along, 0, -down);
     const double gap = 0.4 * down * length;
@@ -194,8 +196,8 @@ Rebound rebound(const ImpactLaw& law, double degrees, Target target) {
 }
 
 double ratio_that_turns(double restitution, double beta0) {
-    const double turn = pi - std::acos(beta0);
-    return std::pow(turn / (pi / 2 * (1 + restitution)), 2) / 3.5;
+    const double turn = pi - math::acos(beta0);
+    return math::square(turn / (pi / 2 * (1 + restitution))) / 3.5;
 }
 
 }  // namespace grainreel

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/random.hpp"
 #include "engine/lab/chart/chart.hpp"
@@ -31,7 +32,7 @@ struct Crowd {
           world(latching_pair(kStiffness, 1, packing.friction, packing.precision),
                 0.1 / natural_frequency()) {
         world.plan.wall = {latching_pair(kStiffness, 1, 0, packing.precision)};
-        edge = std::cbrt(setting.grains * sphere_volume(kDiameter / 2) / setting.solid_fraction);
+        edge = math::cbrt(setting.grains * sphere_volume(kDiameter / 2) / setting.solid_fraction);
         const double room = edge / 2 - kDiameter / 2;
         Random centres(setting.seed, Stream::centres);
         for (int k = 0; k < setting.grains; ++k) {
@@ -148,7 +149,7 @@ std::vector<PackingState> decompress(const JammedPacking& packing, int states) {
     double excess = 0.02;  // solid fraction above jamming, unknown at first
     while (static_cast<int>(all.size()) < states) {
         const double now = all.back().solid_fraction;
-        crowd.shrink(std::cbrt(1 - packing.share * excess / now));
+        crowd.shrink(math::cbrt(1 - packing.share * excess / now));
         rest(crowd, 0.05, 1e-3, 40000);
         const PackingState before = all.back(), after = state_of(crowd);
         if (after.unbalanced > 0.01 || after.rattlers > 0.5 || after.pressure >= before.pressure) break;
@@ -210,7 +211,7 @@ double volume_within(const Vec3& centre, double radius, const Vec3& low, const V
         const auto below = [disc](double z) {
             const double cut = std::clamp(z, -disc, disc);
             return cut * std::sqrt(std::max(0.0, disc * disc - cut * cut)) +
-                   disc * disc * std::asin(std::clamp(cut / disc, -1.0, 1.0));
+                   disc * disc * math::asin(std::clamp(cut / disc, -1.0, 1.0));
         };
         volume += (below(high.z() - centre.z()) - below(low.z() - centre.z())) * width;
     }

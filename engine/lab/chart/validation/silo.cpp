@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/random.hpp"
 #include "engine/lab/chart/chart.hpp"
@@ -59,7 +60,7 @@ Grains crowd(const Cylinder& cylinder, int grains, std::uint64_t seed) {
     for (int k = 0; k < grains; ++k) {
         const double out = (cylinder.bore / 2 - kRadius) * std::sqrt(random.uniform());
         const double angle = random.between(0, 2 * pi), z = random.between(kRadius, height - kRadius);
-        world.add(Vec3(out * std::cos(angle), out * std::sin(angle), z), Vec3::Zero(), {kRadius, kDensity});
+        world.add(Vec3(out * math::cos(angle), out * math::sin(angle), z), Vec3::Zero(), {kRadius, kDensity});
     }
     world.start();
     const double drag = 0.5 * std::sqrt(kStiffness / mass());
@@ -144,13 +145,13 @@ SiloLoad load_of(const SiloColumn& column) {
 }
 
 double janssen(double filling, double friction_times_ratio) {
-    return (1 - std::exp(-4 * friction_times_ratio * filling)) / (4 * friction_times_ratio);
+    return (1 - math::exp(-4 * friction_times_ratio * filling)) / (4 * friction_times_ratio);
 }
 
 JanssenFit fit_janssen(const std::vector<SiloLoad>& loads) {
     const auto rms = [&](double product) {
         double sum = 0;
-        for (const SiloLoad& l : loads) sum += std::pow(l.apparent - janssen(l.filling, product), 2);
+        for (const SiloLoad& l : loads) sum += math::square(l.apparent - janssen(l.filling, product));
         return std::sqrt(sum / static_cast<double>(loads.size()));
     };
     double low = 1e-3, high = 3;  // for the golden section; the rms has one minimum
