@@ -12,7 +12,11 @@ namespace grainreel::test {
 
 // Sets that round a product and a sum once, and those that cannot; the fast ones first. Kernels of the same
 // kind give the same bits.
-inline constexpr std::int64_t fused_sets[] = {HWY_AVX2, HWY_AVX3, HWY_NEON};
+#if HWY_ARCH_ARM
+inline constexpr std::int64_t fused_sets[] = {HWY_STATIC_TARGET};
+#else
+inline constexpr std::int64_t fused_sets[] = {HWY_AVX2, HWY_AVX3};
+#endif
 inline constexpr std::int64_t plain_sets[] = {HWY_SSE4, HWY_EMU128, HWY_SCALAR};
 
 // Whether this processor has the set and kernels are compiled for it. It has the set of the other code
