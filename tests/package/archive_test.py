@@ -65,7 +65,8 @@ def check_film(place, program, tree, grainreel):
 
 
 def check_verbs(place, program, tree):
-    place.run(program, "report", "run")
+    said = place.run(program, "report", "run")
+    check("warning" not in said, f"the page lacks something:\n{said}")
     check((place.folder / "run/report.html").is_file(), "report made no page")
     check("66" in place.run(program, "inspect", "run"), "inspect does not count the grains")
     check("wedge_segregation" in place.run(program, "scenes"), "scenes does not list the shipped ones")
