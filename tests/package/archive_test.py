@@ -13,8 +13,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-SETTINGS = ["wedge_segregation", "--set", "species.small.count=60", "--set", "species.big.count=6", "--duration", "0.05s",
+SETTINGS = ["wedge_segregation", "--set", "species.small.count=60", "--set", "species.big.count=6", "--duration", "0.2s",
             "--set", "film.size=320x240", "--threads", "1"]
+FORMATS = {"gif": "gif", "webm": "webm", "av1": "mp4", "ffv1": "mkv", "y4m": "y4m"}  # and the ends of their names
 GLIBC = re.compile(r"(ld-linux.*|libc|libm|libmvec|libdl|librt|libpthread|libresolv)\.so\.\d+")
 OPENED = ["libOSMesa.so", "libLLVM", "libavcodec.so", "libavfilter.so", "libx264.so"]  # while it runs, not at its start
 
@@ -44,23 +45,28 @@ class Place:
 
 
 def check_film(place, program, tree, grainreel):
-    """A film and what is left of its run, bit by bit as the build's own program makes them."""
-    place.run(program, "movie", *SETTINGS, "--out", "run", "--quiet", LD_LIBRARY_PATH=str(place.wrong),
-              LD_DEBUG="libs", LD_DEBUG_OUTPUT=str(place.folder / "loaded"))
-    place.run(grainreel, "movie", *SETTINGS, "--out", "own", "--quiet")
-    for name in ("final.csv", "movie.mp4", "poster.png", "measures.csv"):
+    """A film, what is left of its run, and films of every format, bit by bit as the build's own program makes them."""
+    watched = {"LD_LIBRARY_PATH": str(place.wrong), "LD_DEBUG": "libs", "LD_DEBUG_OUTPUT": str(place.folder / "loaded")}
+    for one, folder, environment in ((program, "run", watched), (grainreel, "own", {})):
+        place.run(one, "movie", *SETTINGS, "--out", folder, "--quiet", **environment)
+        for kind in FORMATS:
+            place.run(one, "render", "run", "--format", kind, "--out", f"{folder}/{kind}", "--quiet", **environment)
+    made = ["final.csv", "movie.mp4", "poster.png", "measures.csv", *(f"{kind}/movie.{end}" for kind, end in FORMATS.items())]
+    for name in made:
         check((place.folder / "run" / name).read_bytes() == (place.folder / "own" / name).read_bytes(),
               f"{name} differs from the build's own")
     text = "".join(file.read_text() for file in place.folder.glob("loaded.*"))
     loaded = {Path(name) for name in re.findall(r"calling init: (.*)$", text, re.M)}
     for name in OPENED:
-        check(any(file.name.startswith(name) for file in loaded), f"{name} was not loaded: {sorted(loaded)}")
+        check(any(file.name.startswith(name) for file in loaded),
+              f"{name} was not loaded, but {', '.join(sorted(file.name for file in loaded))}")
     for file in loaded:
         check(tree in file.parents or GLIBC.fullmatch(file.name), f"{file} was loaded from the system")
 
 
 def check_verbs(place, program, tree):
-    place.run(program, "report", "run")
+    said = place.run(program, "report", "run")
+    check("warning" not in said, f"the page lacks something:\n{said}")
     check((place.folder / "run/report.html").is_file(), "report made no page")
     check("66" in place.run(program, "inspect", "run"), "inspect does not count the grains")
     check("wedge_segregation" in place.run(program, "scenes"), "scenes does not list the shipped ones")
@@ -81,7 +87,7 @@ def check_own_files(place, program, tree):
     (share / "hidden").rename(share / "units")
 
     def picture(name):
-        place.run(program, "render", "run", "--at", "0.05", "--out", name)
+        place.run(program, "render", "run", "--at", "0.1", "--out", name)
         return (place.folder / name).read_bytes()
 
     before = picture("before.png")

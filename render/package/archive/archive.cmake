@@ -1,6 +1,7 @@
 # The archive that runs everywhere, and the wheel for pip: cmake --build --preset release --target archive wheel
 # Both hold one folder, which make_tree.py puts together: the program with every library that it needs but glibc's.
 find_program(PATCHELF patchelf)
+find_program(ARCHIVE_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(ARCHIVE_PYTHON python3)
 mark_as_advanced(PATCHELF ARCHIVE_PYTHON)
 set(GRAINREEL_ARCHIVE_FFMPEG lean CACHE STRING

@@ -57,15 +57,15 @@ fi
 
 joined() { local IFS=,; echo "$*"; }
 encoders=(libx264 libvpx_vp9 libsvtav1 ffv1 gif wrapped_avframe mjpeg)
-decoders=(h264 vp9 libdav1d ffv1 gif rawvideo wrapped_avframe mjpeg)
+decoders=(h264 vp9 libdav1d ffv1 gif rawvideo wrapped_avframe mjpeg png)  # png: posters
 options=(
     --prefix="$out" --cc="$cc" --pkg-config="$pkg_config"
     --disable-everything --disable-autodetect --disable-programs --disable-doc --disable-debug --disable-network
     --disable-avdevice --disable-swresample --disable-postproc --disable-static --enable-shared --enable-gpl
-    --enable-libx264 --enable-libvpx --enable-libsvtav1 --enable-libdav1d
+    --enable-libx264 --enable-libvpx --enable-libsvtav1 --enable-libdav1d --enable-zlib
     --enable-encoder="$(joined "${encoders[@]}")" --enable-decoder="$(joined "${decoders[@]}")"
-    --enable-muxer=mp4,webm,matroska,gif,yuv4mpegpipe --enable-demuxer=mov,matroska,gif,yuv4mpegpipe
-    --enable-parser=h264,vp9,av1,gif,mjpeg
+    --enable-muxer=mp4,webm,matroska,gif,yuv4mpegpipe --enable-demuxer=mov,matroska,gif,yuv4mpegpipe,image2,image_png_pipe
+    --enable-parser=h264,vp9,av1,gif,mjpeg,png
     --enable-bsf=h264_mp4toannexb,extract_extradata,vp9_superframe,vp9_superframe_split,av1_metadata,null
     --enable-filter=buffer,buffersink,scale,format,null,palettegen,paletteuse
     --enable-protocol=file,pipe "$@")

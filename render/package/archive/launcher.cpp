@@ -46,20 +46,31 @@ Path inside(const Path& folder, const char* name) {
     stop(text);
 }
 
-// Each line of the list has a file's size in bytes and its path in the archive. Later lines are missing when
-// the list itself was cut off, so its last line is "end".
+// Whether the list was not cut off: its last line is "end". Goes back to its begin.
+bool is_whole(std::FILE* list) {
+    constexpr char end[] = "end\n";
+    constexpr std::size_t size = sizeof end - 1;
+    char last[size]{};
+    const bool whole = std::fseek(list, -static_cast<long>(size), SEEK_END) == 0 &&
+                       std::fread(last, 1, size, list) == size && std::memcmp(last, end, size) == 0;
+    std::rewind(list);
+    return whole;
+}
+
+// Each line of the list has a file's size in bytes and its path in the archive.
 void check_files(const Path& folder) {
     constexpr const char* list = "share/grainreel/files";
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> lines(std::fopen(inside(folder, list).text, "re"),
                                                                 std::fclose);
     if (!lines) incomplete(folder, list, "is missing");
+    if (!is_whole(lines.get())) incomplete(folder, list, "is not whole");
     static char line[longest_path];
     while (std::fgets(line, sizeof line, lines.get())) {
         line[std::strcspn(line, "\n")] = '\0';
         if (std::strcmp(line, "end") == 0) return;
         long long size = 0;
         int start = 0;
-        if (std::sscanf(line, "%lld %n", &size, &start) != 1 || start == 0) break;
+        if (std::sscanf(line, "%lld %n", &size, &start) != 1) break;
         const char* const name = line + start;
         struct stat facts {};
         if (::stat(inside(folder, name).text, &facts) != 0) incomplete(folder, name, "is missing");
