@@ -101,7 +101,7 @@ bool RunDriver::pack(const PackingWatcher& watcher) {
 
 bool RunDriver::take_kept_packing(const std::string& key) {
     const std::filesystem::path place = place_of_packing(key);
-    if (place.empty()) return false;
+    if (place.empty() || !is_own_packing(place)) return false;
     auto found = Simulation::with_packing(scene_, plan_, place, key, simulation_.threads(), packing_);
     if (!found) return false;
     simulation_ = std::move(*found);
