@@ -9,6 +9,7 @@
 #include <spdlog/version.h>
 #include <toml++/toml.h>
 #include <xxhash.h>
+#include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -23,7 +24,6 @@ extern "C" {
 #include "engine/base/own_files.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/vector/instructions.hpp"
-#include "render/app/options/cli.hpp"
 
 namespace grainreel {
 
