@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Golden{"bed10k", 400, Precision::mixed, 40000},
                     Golden{"bed10k-walton-braun", 400, Precision::full, 40000},
                     Golden{"frictionless", 400, Precision::full, 40000},
-                    Golden{"wedge", 405, Precision::full, 40000, 0x211e68921b5a114c, 0x30bb36c8eb753ea7},
+                    Golden{"wedge", 405, Precision::full, 40000, 0x8b556a0d441da73b, 0xb171f7791e01b7f0},
                     Golden{"intruder", 1000, Precision::full, 25000},
                     Golden{"gas", 400, Precision::full, 12000}),
     [](const auto& one) {
