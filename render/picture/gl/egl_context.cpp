@@ -14,12 +14,18 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/own_files.hpp"
 #include "render/picture/gl/opengl.hpp"
 
 namespace grainreel::gl {
 namespace {
 
-constexpr const char* remedy = "install Debian's libegl1 and libegl-mesa0, or the graphics driver's own EGL";
+// The libraries of an unpacked archive are older than what newer systems' drivers ask for.
+std::string remedy() {
+    if (!own_files().empty())
+        return "this system's EGL may not fit the libraries of the archive; leave out --gl egl";
+    return "install Debian's libegl1 and libegl-mesa0, or the graphics driver's own EGL";
+}
 
 struct Library {
     PFNEGLGETPROCADDRESSPROC address = nullptr;
@@ -45,14 +51,14 @@ bool lists(const std::string& extensions, const std::string& name) {
 template <class Function>
 void find(void* handle, const char* name, Function& into) {
     into = reinterpret_cast<Function>(dlsym(handle, name));
-    if (!into) throw RunError(std::string("libEGL lacks ") + name + "; " + remedy);
+    if (!into) throw RunError(std::string("libEGL lacks ") + name + "; " + remedy());
 }
 
 // The library is opened once and never closed, because drivers with LLVM inside do not survive being
 // unloaded.
 Library open_library() {
     void* handle = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-    if (!handle) throw RunError(std::string("libEGL.so.1 cannot be opened; ") + remedy);
+    if (!handle) throw RunError(std::string("libEGL.so.1 cannot be opened; ") + remedy());
     Library egl;
     find(handle, "eglGetProcAddress", egl.address);
     find(handle, "eglQueryString", egl.query_string);
@@ -72,7 +78,7 @@ Library open_library() {
         egl.platform_display =
             reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(egl.address("eglGetPlatformDisplayEXT"));
     if (!egl.platform_display)
-        throw RunError(std::string("libEGL draws to windows only (no EGL_EXT_platform_base); ") + remedy);
+        throw RunError(std::string("libEGL draws to windows only (no EGL_EXT_platform_base); ") + remedy());
     const bool devices =
         lists(egl.extensions, "EGL_EXT_device_base") || lists(egl.extensions, "EGL_EXT_device_enumeration");
     if (devices && lists(egl.extensions, "EGL_EXT_platform_device")) {
@@ -186,7 +192,7 @@ std::unique_ptr<Context> make_egl_context(int raster_threads, const std::vector<
                 why = error.what();
             }
         }
-    throw RunError("EGL gives no off-screen OpenGL context (" + why + "); " + remedy);
+    throw RunError("EGL gives no off-screen OpenGL context (" + why + "); " + remedy());
 }
 
 }  // namespace grainreel::gl
