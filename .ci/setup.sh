@@ -42,6 +42,9 @@ dpkg-dev             dpkg-shlibdeps, for cpack
 test_packages="
 libgtest-dev         gtest
 libgmock-dev         gmock
+patchelf             patchelf, for the test of the archive
+python3-pip          pip for Python, which installs the wheel in a test
+python3-venv         venv for Python
 libmpfr-dev          mpfr, to which a test compares sines, powers and so on
 python3-xarray       xarray for Python, which reads fields.nc in a test
 python3-netcdf4      netCDF4 for Python

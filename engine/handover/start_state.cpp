@@ -90,14 +90,15 @@ std::vector<Vec3> lattice_places(const CarriedScene& carried, std::size_t count,
 
 using Grain = StartState::Grain;
 
-// Packs with our engine and takes the last frame.
+// Packs with our engine. Grains that lie in an exit are handed over too, because the other engine lets them
+// leave.
 bool packed_here(const CarriedScene& carried, int threads, const PackingWatcher& watcher, StartState& start) {
     Simulation run(carried.scene, carried.plan, threads);
-    const PackingResult result = run.pack(watcher);
+    Frame frame;
+    const PackingResult result = run.pack(watcher, [&](const PackingResult&) { frame = run.frame(); });
     start.stopped = !result.finished;
     start.settled = result.settled;
     if (start.stopped) return false;
-    const Frame frame = run.frame();
     start.grains.reserve(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const auto species = static_cast<std::size_t>(frame.species[i]);

@@ -58,6 +58,8 @@ struct ObservedState {
     const Surroundings* around = nullptr;
     const StepLoop* loop = nullptr;
     std::span<const std::int64_t> fed = {};  // number of grains that each of the scene's feeds has given
+    // Grains that left when the drive started, before start() was called; only start() may look at them.
+    std::span<const Departure> left_at_start = {};
 
     double floor_height() const { return pose.offset.z() + scene.container.base(); }  // m
     // Whether there are two species or more, and grains.

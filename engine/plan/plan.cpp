@@ -272,8 +272,8 @@ Plan make_plan(const Scene& scene, const StartFacts& file) {
         plan.rain_steps_limit = count_steps(scene, rain_limit(scene), plan.clock.step, "start.rain_rate");
     plan_output(scene, plan);
     plan.warnings = scene.notes;
-    for (const std::vector<std::string>& found :
-         {likely_slips(scene), plan_warnings(scene, plan, bed, step), start_warnings(scene, plan, bed)})
+    for (const std::vector<std::string>& found : {likely_slips(scene), plan_warnings(scene, plan, bed, step),
+                                                  start_warnings(scene, plan, bed), exit_warnings(scene)})
         plan.warnings.insert(plan.warnings.end(), found.begin(), found.end());
     return plan;
 }

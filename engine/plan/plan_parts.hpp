@@ -82,6 +82,10 @@ StepChoice plan_step(const Scene& scene, const Plan& plan);
 
 // Warnings of values that are hardly meant, such as a density of 7.8 kg/m3.
 std::vector<std::string> likely_slips(const Scene& scene);
+
+// Warns of grains that would lie in an exit when the drive starts. Where grains are packed, their number is
+// estimated from the room that the bed takes up.
+std::vector<std::string> exit_warnings(const Scene& scene);
 // Warns of contacts: too soft, too long, too stiff, or too few steps in one.
 class Warnings;
 void warn_of_contacts(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings);

@@ -11,6 +11,10 @@
 
 namespace grainreel {
 
+// The warning of so many grains (`all` in total, known or about) that leave through exits when the drive
+// starts.
+std::string exit_warning(const Scene& scene, double leave, std::int64_t all, bool known);
+
 class Warnings {
   public:
     explicit Warnings(const Scene& scene) : scene_(scene) {}

@@ -125,6 +125,20 @@ double FreeSpace::height_of_share(double part) const {
     return 0.5 * (low + high);
 }
 
+double FreeSpace::share_of(double height, double margin,
+                           const std::function<bool(const Vec3&)>& condition) const {
+    constexpr int kPlaces = 10'000;
+    const Vec3 top(high_.x(), high_.y(), std::min(high_.z(), height));
+    int all = 0, fulfil = 0;
+    for (int k = 0; k < kPlaces; ++k) {
+        const Vec3 place = low_ + evenly(k).cwiseProduct(top - low_);
+        if (!holds(place, margin)) continue;
+        ++all;
+        fulfil += condition(place) ? 1 : 0;
+    }
+    return all > 0 ? static_cast<double>(fulfil) / all : 0;
+}
+
 namespace {
 
 // Whether the straight way from one place to another meets no triangle.

@@ -2,6 +2,7 @@
 // inner side of its planes and outside its meshes. Also a search for leaks of a vessel.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,9 @@ class FreeSpace {
     const Vec3& high() const { return high_; }
     // The height z (m) below which this share of the volume lies; share in [0, 1].
     double height_of_share(double share) const;
+    // The share of the room up to a height (m), `margin` (m) from all walls, whose places fulfil a condition.
+    // It is measured at evenly spread places; 0 where the room is too narrow for the margin.
+    double share_of(double height, double margin, const std::function<bool(const Vec3&)>& condition) const;
     // Whether the place lies at least `margin` (m) from floor, lid, walls, planes and meshes.
     bool holds(const Vec3& place, double margin) const;
 

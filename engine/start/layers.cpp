@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -217,25 +218,55 @@ double largest_overlap(const StepLoop& loop) {
     return largest;
 }
 
-}  // namespace
+std::vector<Vec3> places_by_id(const Grains& grains) {
+    std::vector<Vec3> places(grains.size());
+    for (std::size_t i = 0; i < grains.size(); ++i)
+        places[static_cast<std::size_t>(grains.id[i])] = grains.place[i].position;
+    return places;
+}
 
-GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings& surroundings,
-                        Grains& grains, Team& team,
-                        const std::function<bool(double, std::int64_t)>& watcher) {
-    const Plan growth = growth_plan(plan);
+// Gives the grains their wanted radii, at rest.
+void come_to_rest(Growing& g) {
+    Grains& grains = g.grains;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        g.set_radius(i, g.wanted_of(i));
+        grains.motion[i].velocity.setZero();
+        grains.motion[i].spin.setZero();
+        grains.load[i] = {};
+    }
+}
+
+// Puts the grains back to where they were before their radii grew.
+void begin_again(Growing& g, const std::vector<Vec3>& places) {
+    for (std::size_t i = 0; i < places.size(); ++i)
+        g.grains.place[i].position = places[static_cast<std::size_t>(g.grains.id[i])];
+    come_to_rest(g);
+}
+
+// Whether a grain was thrown so far away that it never comes back, or is nowhere.
+bool any_lost(const Grains& grains) {
+    constexpr double kFar = 1e6;  // m
+    return std::any_of(grains.place.begin(), grains.place.end(),
+                       [](const Place& place) { return !(place.position.cwiseAbs().maxCoeff() < kFar); });
+}
+
+RunError still_overlap(const Scene& scene, const StepLoop& loop, const GrowthReport& report) {
+    return RunError(
+        fmt::format("{}: the grains still overlap by {:.2g} radii after {} cycles of radius growth; "
+                    "take fewer or smaller grains, or a larger container",
+                    scene.where("species"), largest_overlap(loop), report.cycles));
+}
+
+// Grows the radii. Small grains are light: with the step of grains of full size they fly apart where they
+// overlap. by_mass_now: the step follows the present masses, which takes longer. Returns nothing if grains
+// were lost.
+std::optional<GrowthReport> grow(Growing& g, const Plan& growth, Team& team, bool by_mass_now,
+                                 const std::function<bool(double, std::int64_t)>& watcher) {
+    Grains& grains = g.grains;
     double step = growth_step(growth, grains);
-    Surroundings still = surroundings;
-    still.gravity.setZero();
-    Growing g{scene, still, grains, std::vector<double>(grains.size())};
-    for (std::size_t i = 0; i < grains.size(); ++i) g.wanted[grains.id[i]] = grains.place[i].radius;
-    first_radii(g, still.skin);
-
-    StepLoop loop(growth, still, grains, team);
+    first_radii(g, g.around.skin);
+    StepLoop loop(growth, g.around, grains, team);
     GrowthReport report;
-    // Small grains are light: with the step of grains of full size they would fly apart when they overlap. A
-    // plane pushes back a grain that went through it, but a sheet of triangles does not. So with meshes the
-    // step follows the present masses.
-    const bool by_mass_now = !still.meshes.empty();
     for (;; ++report.cycles) {
         double smallest_share = 1;
         for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -253,22 +284,39 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
             report.finished = false;
             return report;
         }
-        if (smallest_share >= 1 && largest_overlap(loop) < 0.5 * (kInflation - 1)) break;
-        if (report.cycles > kMostCycles) {
-            throw RunError(
-                fmt::format("{}: the grains still overlap by {:.2g} radii after {} cycles of radius growth; "
-                            "take fewer or smaller "
-                            "grains, or a larger container",
-                            scene.where("species"), largest_overlap(loop), report.cycles));
-        }
+        if (any_lost(grains)) return std::nullopt;
+        if (smallest_share >= 1 && largest_overlap(loop) < 0.5 * (kInflation - 1)) return report;
+        if (report.cycles > kMostCycles) throw still_overlap(g.scene, loop, report);
     }
-    for (std::size_t i = 0; i < grains.size(); ++i) {
-        g.set_radius(i, g.wanted_of(i));
-        grains.motion[i].velocity.setZero();
-        grains.motion[i].spin.setZero();
-        grains.load[i] = {};
+}
+
+}  // namespace
+
+GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings& surroundings,
+                        Grains& grains, Team& team,
+                        const std::function<bool(double, std::int64_t)>& watcher) {
+    const Plan growth = growth_plan(plan);
+    Surroundings still = surroundings;
+    still.gravity.setZero();
+    Growing g{scene, still, grains, std::vector<double>(grains.size())};
+    for (std::size_t i = 0; i < grains.size(); ++i) g.wanted[grains.id[i]] = grains.place[i].radius;
+    const std::vector<Vec3> placed = places_by_id(grains);
+    // A plane mostly pushes back a grain that flew through it, but a sheet of triangles does not. A small
+    // grain between glued grains is thrown from one to the other, faster each time.
+    std::optional<GrowthReport> report;
+    if (still.meshes.empty()) report = grow(g, growth, team, false, watcher);
+    if (!report) {
+        begin_again(g, placed);
+        report = grow(g, growth, team, true, watcher);
     }
-    return report;
+    if (!report)
+        throw RunError(
+            fmt::format("{}: the grains find no room where they start, and fly apart while their "
+                        "radii grow; take fewer or smaller grains, or method = \"rain\"",
+                        scene.where("start")));
+    if (!report->finished) return *report;
+    come_to_rest(g);
+    return *report;
 }
 
 }  // namespace grainreel

@@ -14,6 +14,7 @@
 #include "engine/plan/plan_bed.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/free_space.hpp"
+#include "engine/start/fallen.hpp"
 
 namespace grainreel {
 
@@ -141,6 +142,7 @@ RainReport rain(const Scene& scene, const Plan& plan, const Surroundings& around
     // Rain ends before settling begins, or with it: walls stand still until step 0.
     const std::int64_t first = -plan.settle_steps_limit - plan.rain_steps_limit;
     Shower shower(scene, around);
+    const FallenGrains fallen(scene, around);
     RainReport report;
     std::int64_t last = 0;  // step in which the last grain came
     while (true) {
@@ -157,6 +159,7 @@ RainReport rain(const Scene& scene, const Plan& plan, const Surroundings& around
                 scene.where("start.method"), shower.come(), all));
         loop.run(first + report.steps, kStepsPerLook, step, 0);
         report.steps += kStepsPerLook;
+        fallen.stop(grains);
         check_state(limits, around, grains, loop, first + report.steps);
         if (!watcher(static_cast<double>(shower.come()) / all, report.steps)) {
             report.finished = false;

@@ -8,6 +8,7 @@
 
 #include "engine/measure/energy.hpp"
 #include "engine/measure/health.hpp"
+#include "engine/start/fallen.hpp"
 
 namespace grainreel {
 
@@ -45,6 +46,7 @@ SettleReport settle(const Scene& scene, const Plan& plan, const Surroundings& su
     const std::int64_t calm_steps =
         static_cast<std::int64_t>(10 * std::sqrt(diameter / gravity) / plan.clock.step);
     const HealthLimits limits = health_limits(scene, plan);
+    const FallenGrains fallen(scene, surroundings);
     std::int64_t calm_since = -1;
     // Steps count from -limit: walls stand still before step 0.
     const std::int64_t first = -plan.settle_steps_limit;
@@ -52,6 +54,7 @@ SettleReport settle(const Scene& scene, const Plan& plan, const Surroundings& su
         const std::int64_t now = std::min(kStepsPerLook, plan.settle_steps_limit - report.steps);
         loop.run(first + report.steps, now, plan.clock.step, scene.start.settle_damping);
         report.steps += now;
+        fallen.stop(grains);
         check_state(limits, surroundings, grains, loop, first + report.steps);
         const Kinetic kinetic = kinetic_energy(grains);
         report.kinetic_per_grain =
@@ -131,6 +134,7 @@ SettleReport relax(const Scene& scene, const Plan& plan, const Surroundings& sur
                    StepLoop& loop, const std::function<bool(double, std::int64_t)>& watcher) {
     const std::vector<Vec3> before = places_by_id(grains);
     const HealthLimits limits = health_limits(scene, plan);
+    const FallenGrains fallen(scene, surroundings);
     const std::int64_t braking = braking_steps(plan);
     const double all = static_cast<double>(braking + plan.settle_steps_limit);
     SettleReport report;
@@ -138,6 +142,7 @@ SettleReport relax(const Scene& scene, const Plan& plan, const Surroundings& sur
         const std::int64_t at = report.steps - braking - plan.settle_steps_limit;
         loop.run(at, level.steps, plan.clock.step, level.drag);
         report.steps += level.steps;
+        fallen.stop(grains);
         check_state(limits, surroundings, grains, loop, at + level.steps);
         if (watcher(static_cast<double>(report.steps) / all, report.steps)) continue;
         report.finished = false;

@@ -10,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/plan/warnings.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/bed_in_file.hpp"
 #include "engine/start/held_histories.hpp"
@@ -136,6 +137,17 @@ void plan_start(const BedInFile& bed, Plan& plan) {
     plan.start.text = text_of(plan, bed, all_kept);
 }
 
+void warn_of_exits(const Scene& scene, const Grains& grains, Plan& plan) {
+    const auto leaves = [&](const Place& place) {
+        return std::any_of(scene.exits.begin(), scene.exits.end(),
+                           [&](const ExitBox& exit) { return exit.holds(place.position); });
+    };
+    const auto leave = std::count_if(grains.place.begin(), grains.place.end(), leaves);
+    if (leave > 0)
+        plan.warnings.push_back(
+            exit_warning(scene, static_cast<double>(leave), std::ssize(grains.place), true));
+}
+
 // The plan by the kind of start; meshes are not checked.
 Plan plan_of(const Scene& scene) {
     if (scene.start.method != Start::Method::file) return make_plan(scene, StartFacts());
@@ -154,6 +166,7 @@ Plan plan_of(const Scene& scene) {
     if (!bed) return make_plan(scene, StartFacts());
     Plan plan = make_plan(scene, facts_of(scene, *bed));
     plan_start(*bed, plan);
+    warn_of_exits(scene, bed->grains, plan);
     return plan;
 }
 

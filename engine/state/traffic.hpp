@@ -41,7 +41,7 @@ inline Exit exit_below(double height) {
 struct Departure {
     std::int64_t step = 0;
     std::int32_t id = 0, species = 0;
-    double radius = 0;                                         // m
+    double radius = 0, mass = 0;                               // m, kg
     Vec3 position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};  // m, m/s, rad/s
     double energy = 0;  // J: kinetic, gravitational, and what its contacts held
 };

@@ -53,6 +53,8 @@ class StepLoop {
     // exit at the end of a step leave then, and the others go on without them.
     void run(std::int64_t from, std::int64_t count, double step, double drag);
 
+    // Lets the grains that are in an exit leave between two runs. `step` is the step that has been reached.
+    void let_leave(std::int64_t step);
     // Takes grains out between two runs. `step` is the step that has been reached. Ids that no grain has are
     // ignored.
     void remove(const std::vector<std::int32_t>& ids, std::int64_t step);
@@ -65,6 +67,8 @@ class StepLoop {
     const Traffic& traffic() const { return traffic_; }
     // The grains that have left since the last call, by step, then by id.
     std::vector<Departure> take_departures();
+    // The same grains, which stay there to be taken.
+    const std::vector<Departure>& departures() const { return departures_; }
     // Sets the counts of grains that have come and left, and their energies, to zero.
     void begin_account() { traffic_ = {.next_id = traffic_.next_id}; }
 
@@ -136,7 +140,6 @@ class StepLoop {
 
     bool in_exit(std::int32_t grain) const;
     bool may_leave(int member, double step) const;
-    void let_leave(std::int64_t step);
     void check_meshes() const;
     void end_with_fault() const;
     void take_out(const std::vector<std::int32_t>& leavers, std::int64_t step);

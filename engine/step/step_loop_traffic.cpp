@@ -37,6 +37,7 @@ Departure departure_of(const Grains& grains, std::size_t i, const Vec3& gravity,
     gone.id = grains.id[i];
     gone.species = grains.species[i];
     gone.radius = grains.place[i].radius;
+    gone.mass = grains.mass(i);
     gone.position = grains.place[i].position;
     gone.velocity = motion.velocity;
     gone.spin = motion.spin;

@@ -36,7 +36,8 @@ struct Surroundings {
     // m: the first neighbour lists hold grains up to this distance beyond contact. Later lists use a distance
     // that suits the motion.
     double skin = 0;
-    std::vector<Exit> exits;  // regions in which grains leave; open_outlet() may add one
+    // Regions in which grains leave. open_outlet() may add one. A simulation has none while it packs.
+    std::vector<Exit> exits;
 };
 
 // The name of a wall in messages. `wall` numbers the faces from 0 and then the meshes. For a ContactView it

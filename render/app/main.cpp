@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/base/error.hpp"
+#include "engine/base/own_files.hpp"
 #include "engine/base/text.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"
@@ -58,5 +59,6 @@ int parse_and_run(int argc, char** argv) {
 int main(int argc, char** argv) {
     grainreel::open_missing_streams();
     grainreel::ignore_write_signals();
+    grainreel::use_own_files();
     return grainreel::parse_and_run(argc, argv);
 }

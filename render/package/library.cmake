@@ -19,6 +19,7 @@ function(grainreel_install_archive name)
                     COMMAND_ERROR_IS_FATAL ANY)" COMPONENT dev)
   install(FILES ${library_made}/lib${name}.a DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
 endfunction()
+grainreel_build_first(dev ${engine_parts} ${picture_parts})
 grainreel_install_archive(grainreel_engine ${engine_parts})
 grainreel_install_archive(grainreel_picture ${picture_parts})
 
@@ -45,4 +46,4 @@ install(FILES ${package_facts} DESTINATION ${library_doc} COMPONENT dev)
 # What a program that links the archives needs beside them.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libfmt-dev, libspdlog-dev, libtomlplusplus-dev, libnetcdf-dev, libhwy-dev, \
 libudunits2-dev, libxxhash-dev, zlib1g-dev, libzstd-dev, liblz4-dev, libexpat1-dev, libpng-dev, \
-libpango1.0-dev, libosmesa6, fonts-dejavu-core, pkg-config")
+libpango1.0-dev, libosmesa6 | libegl1, fonts-dejavu-core, pkg-config")

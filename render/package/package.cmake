@@ -7,13 +7,22 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(GRAINREEL_CONTACT "The grainreel authors <grainreel@users.noreply.github.com>" CACHE STRING
     "Who answers for the Debian package")
 
+function(grainreel_build_first component)  # the rest: targets that the component holds
+  install(CODE "
+    execute_process(COMMAND ${CMAKE_COMMAND} -DBUILD=${CMAKE_BINARY_DIR} \"-DTARGETS=${ARGN}\"
+                            -P ${package_sources}/build_first.cmake
+                    COMMAND_ERROR_IS_FATAL ANY)" COMPONENT ${component})
+endfunction()
+
+grainreel_build_first(program grainreel)
 install(TARGETS grainreel RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/grainreel/scenes
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.stl" PATTERN "*.csv")
 
-# The program writes its manual itself, so it must be built for the machine that installs.
+# The program writes its manual itself, so it must run on the machine that installs, or there must be an emulator for it.
 install(CODE "
-  execute_process(COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:grainreel> -DOUT=${package_made}
+  execute_process(COMMAND ${CMAKE_COMMAND} \"-DPROGRAM=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:grainreel>\"
+                          -DOUT=${package_made}
                           -DCHANGES=${CMAKE_SOURCE_DIR}/CHANGELOG.md -P ${package_sources}/make_manual.cmake
                   COMMAND_ERROR_IS_FATAL ANY)")
 install(DIRECTORY ${package_made}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
@@ -40,6 +49,7 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/guide ${CMAKE_SOURCE_DIR}/docs/refere
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/grainreel/docs FILES_MATCHING PATTERN "*.md")
 
 include(${package_sources}/library.cmake)
+include(${package_sources}/archive/archive.cmake)
 install(FILES ${package_sources}/python/grainreel.py DESTINATION lib/python3/dist-packages COMPONENT python)
 install(FILES ${package_facts}
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-grainreel COMPONENT python)
@@ -61,10 +71,11 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
-# What is linked is found in the binary. What the program opens while it runs is named by hand: OSMesa, FFmpeg, fonts,
-# and the table of units, which its library brings along. Debian calls FFmpeg's packages by the major version.
+# What is linked is found in the binary. What the program opens while it runs is named by hand: OpenGL, FFmpeg, fonts,
+# and the table of units, which its library brings along. Debian calls FFmpeg's packages by the major version. Mesa has
+# no OSMesa from 25.1 on; there libegl1 brings Mesa's drivers along, with llvmpipe among them.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6 | libegl1, fonts-dejavu-core")
 foreach(library libavutil libavcodec libavformat libswscale libavfilter)
   string(REGEX MATCH "^[0-9]+" major "${FFMPEG_${library}_VERSION}")
   string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", ${library}${major}")

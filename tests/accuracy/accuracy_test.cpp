@@ -218,7 +218,7 @@ TEST(Mathematics, ResultsAreWithinTheErrorsThatTheHeaderStates) {
 }
 
 TEST(Mathematics, AccuracyLong) {
-    compare(1000000);
+    compare(100000);
 }
 
 }  // namespace

@@ -117,6 +117,25 @@ TEST(DumpIndex, GoesToTheCacheWhereItMust) {
         ::setenv("XDG_CACHE_HOME", kept_before.c_str(), 1);
 }
 
+// Everybody may make files beside a dump in /tmp. So an index counts only if the user, or the owner of the
+// dump, has made it, and if it is no link.
+TEST(DumpIndex, OfSomebodyElseIsNotBelieved) {
+    const DumpFolder folder;
+    const auto file = folder.write("a", frames(2));
+    const auto index = folder.path() / ".a.grainreel-index";
+    keep_index(file, FileBytes(file).state(), index_of(file));
+    EXPECT_TRUE(kept_index(file, FileBytes(file).state()));
+    std::filesystem::rename(index, folder.path() / "elsewhere");
+    std::filesystem::create_symlink(folder.path() / "elsewhere", index);
+    EXPECT_FALSE(kept_index(file, FileBytes(file).state()));
+    std::filesystem::rename(folder.path() / "elsewhere", index);
+    constexpr uid_t kOther = 54321;
+    if (::chown(index.c_str(), kOther, kOther) != 0) return;  // only root may give a file away
+    EXPECT_FALSE(kept_index(file, FileBytes(file).state()));
+    if (::chown(file.c_str(), kOther, kOther) != 0) return;
+    EXPECT_TRUE(kept_index(file, FileBytes(file).state())) << "it belongs to the owner of the dump";
+}
+
 // The second time, a large dump is opened by its index: a wrong step in the index is found in the result.
 TEST(DumpIndex, OfALargeDumpIsUsed) {
     const DumpFolder folder;

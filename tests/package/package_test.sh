@@ -1,19 +1,25 @@
 #!/usr/bin/env bash
-# Makes the Debian package of a build and uses what is in it from an empty folder: package_test.sh BUILD
-# The package is unpacked, not installed, so that the test needs no root.
+# Makes the Debian packages of a build and uses what is in them from an empty folder: package_test.sh BUILD MAJORS
+# MAJORS: FFmpeg's libraries and their major versions, avutil=57,avcodec=59
+# The packages are unpacked, not installed, so that the test needs no root.
 set -euo pipefail
-build=$1
+build=$1 majors=$2
 here=$(mktemp -d)
 trap 'rm -rf "$here"' EXIT
 
 fail() { echo "FAILED: $*" >&2; exit 1; }
 
+# It begins as after ./movie, which builds the program alone: what else the packages hold is not there yet.
 cd "$build"
+rm -f engine/libgrainreel_engine_library.a render/libgrainreel_picture_library.a
+find engine/CMakeFiles/grainreel_engine_library.dir render/CMakeFiles/grainreel_picture_library.dir -name '*.o' -delete
 cpack -B "$here/made" >"$here/cpack.log" 2>&1 || { cat "$here/cpack.log"; fail "cpack ended with $?"; }
 package=$(echo "$here"/made/grainreel_*.deb)
 (($(stat -c %s "$package") < 10000000)) || fail "$package is larger than 10 MB"
-for needed in libosmesa6 libav{util57,codec59,format59,filter8} libswscale6 libnetcdf19 libudunits2-0 fonts-dejavu-core; do
-    dpkg-deb -f "$package" Depends | grep -qw -- "$needed" || fail "it does not depend on $needed"
+# FFmpeg's packages are called by the major version of their library: libavutil57.
+for needed in 'libosmesa6 \| libegl1' $(tr ',' '\n' <<<"$majors" | sed 's/^/lib/; s/=//') 'libnetcdf[0-9]+' libudunits2-0 fonts-dejavu-core
+do
+    dpkg-deb -f "$package" Depends | grep -qE "(^|, )$needed( |,|$)" || fail "it does not depend on $needed"
 done
 dpkg-deb -x "$package" "$here/root"
 

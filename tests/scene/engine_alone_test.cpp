@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/mesh/room.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "render/scene/filmed_scene.hpp"

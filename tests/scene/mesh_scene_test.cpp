@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "engine/mesh/room.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/scene_file.hpp"

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/base/error.hpp"
+#include "engine/mesh/room.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "render/scene/filmed_scene.hpp"

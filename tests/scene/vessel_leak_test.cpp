@@ -1,4 +1,5 @@
 // Tests of vessels that hold their grains, and of vessels that do not.
+#include "engine/mesh/room.hpp"
 #include "engine/scene/free_space.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Tests of the writer of scenes: a scene that is written and read again is the same.
+#include "engine/mesh/room.hpp"
 #include "engine/plan/resolved_scene.hpp"
 
 #include <gtest/gtest.h>

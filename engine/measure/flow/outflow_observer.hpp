@@ -79,12 +79,19 @@ class Outflow final : public Observer {
     void start(const ObservedState& m) override {
         double largest = largest_mass(m.scene);
         for (std::size_t i = 0; i < m.grains.size(); ++i) largest = std::max(largest, m.grains.mass(i));
+        for (const Departure& one : m.left_at_start) largest = std::max(largest, one.mass);
         quantum_ = mass_quantum(largest);
         at_start_ = inside(m);
         const MassCounts& came = fed_.of(m.fed, quantum_);
         for (std::size_t s = 0; s < came.size(); ++s) at_start_[s] -= came[s];
+        WideInt left = 0;
+        for (const Departure& one : m.left_at_start) {
+            const WideInt mass = mass_count(one.mass, quantum_);
+            at_start_[static_cast<std::size_t>(one.species)] += mass;
+            left += mass;
+        }
         most_ = total(inside(m));
-        before_ = last_ = {m.step, 0};
+        before_ = last_ = {m.step, left};
     }
     void gather(const ObservedState& m) override {
         before_ = last_;

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "engine/base/own_folder.hpp"
 #include "engine/base/program.hpp"
 
 namespace grainreel {
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{2} << 30;  // bytes of all packings together
+constexpr const char* kPackings = "packings";                   // name of their folder in the cache folder
 constexpr const char* kEnd = ".grs";
 
 struct One {
@@ -26,6 +28,15 @@ struct One {
     std::uintmax_t bytes;
 };
 
+// Whether a file has the name of a packing, finished or not: 32 digits of a hash and ".grs", perhaps with
+// more behind it. Only such files are counted and removed.
+bool is_packing(const fs::path& file) {
+    constexpr std::size_t kHash = 32;
+    const std::string name = file.filename().string();
+    return name.find_first_not_of("0123456789abcdef") == kHash && name.compare(kHash, 4, kEnd) == 0 &&
+           is_own(file);
+}
+
 std::vector<One> all_in(const fs::path& folder) {
     std::vector<One> all;
     std::error_code error;
@@ -33,7 +44,7 @@ std::vector<One> all_in(const fs::path& folder) {
         std::error_code gone;
         const bool plain = at->is_regular_file(gone);
         const One one{at->path(), at->last_write_time(gone), at->file_size(gone)};
-        if (plain && !gone) all.push_back(one);
+        if (plain && !gone && is_packing(one.file)) all.push_back(one);
     }
     return all;
 }
@@ -65,7 +76,11 @@ fs::path place_of_packing(const std::string& key) {
     const fs::path cache = cache_folder();
     if (cache.empty() || key.empty()) return {};
     const XXH128_hash_t hash = XXH3_128bits(key.data(), key.size());
-    return cache / "packings" / fmt::format("{:016x}{:016x}{}", hash.high64, hash.low64, kEnd);
+    return cache / kPackings / fmt::format("{:016x}{:016x}{}", hash.high64, hash.low64, kEnd);
+}
+
+bool is_own_packing(const fs::path& place) {
+    return !own_cache_folder(kPackings).empty() && is_own(place);
 }
 
 void note_packing_used(const fs::path& place) {
@@ -78,8 +93,7 @@ std::string keep_packing(const fs::path& place, const std::function<void(const f
     const fs::path part = place.string() + fmt::format(".{}-{}.new", ::getpid(), number++);
     std::error_code error;
     try {
-        fs::create_directories(place.parent_path(), error);
-        if (error) return fmt::format("{}: {}", place.parent_path().string(), error.message());
+        if (const std::string fault = make_own_cache_folder(kPackings); !fault.empty()) return fault;
         write(part);
         fs::rename(part, place, error);
         if (!error) {
@@ -96,8 +110,7 @@ std::string keep_packing(const fs::path& place, const std::function<void(const f
 
 PackingsKept packings_kept() {
     PackingsKept kept;
-    const fs::path cache = cache_folder();
-    if (!cache.empty()) kept.folder = cache / "packings";
+    kept.folder = own_cache_folder(kPackings);
     kept.most_bytes = kMostBytes;
     for (const One& one : all_in(kept.folder)) {
         kept.packings += one.file.extension() == kEnd ? 1 : 0;

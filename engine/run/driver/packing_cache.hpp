@@ -16,6 +16,9 @@ namespace grainreel {
 // The path for the packing of a key, whether it is there or not. Empty if the user has no cache folder.
 std::filesystem::path place_of_packing(const std::string& key);
 
+// Whether there is a file at that path which the user alone may have put there. No other packing may be used.
+bool is_own_packing(const std::filesystem::path& place);
+
 // Notes that a packing has been used. Packings that were not used for the longest time are removed first.
 void note_packing_used(const std::filesystem::path& place);
 

@@ -86,12 +86,13 @@ bool RunDriver::pack(const PackingWatcher& watcher) {
     const std::string key = shortest_kept_ ? simulation_.packing_key() : "";
     if (!take_kept_packing(key)) {
         const Stopwatch packing;
-        packing_ = simulation_.pack([&](const PackingProgress& now) {
-            folder_->check_there();
-            return watcher(now);
-        });
+        packing_ = simulation_.pack(
+            [&](const PackingProgress& now) {
+                folder_->check_there();
+                return watcher(now);
+            },
+            [&](const PackingResult& result) { keep_packing_of(key, result, packing.seconds()); });
         if (!packing_.finished) return false;
-        keep_packing_of(key, packing.seconds());
     }
     first_step_ = simulation_.step();
     packed_ = true;
@@ -100,7 +101,7 @@ bool RunDriver::pack(const PackingWatcher& watcher) {
 
 bool RunDriver::take_kept_packing(const std::string& key) {
     const std::filesystem::path place = place_of_packing(key);
-    if (place.empty()) return false;
+    if (place.empty() || !is_own_packing(place)) return false;
     auto found = Simulation::with_packing(scene_, plan_, place, key, simulation_.threads(), packing_);
     if (!found) return false;
     simulation_ = std::move(*found);
@@ -109,11 +110,11 @@ bool RunDriver::take_kept_packing(const std::string& key) {
     return true;
 }
 
-void RunDriver::keep_packing_of(const std::string& key, double seconds) {
+void RunDriver::keep_packing_of(const std::string& key, const PackingResult& result, double seconds) {
     const std::filesystem::path place = place_of_packing(key);
     if (place.empty() || seconds < *shortest_kept_) return;
     not_kept_ = keep_packing(
-        place, [&](const std::filesystem::path& file) { simulation_.save_packing(file, key, packing_); });
+        place, [&](const std::filesystem::path& file) { simulation_.save_packing(file, key, result); });
 }
 
 void RunDriver::start(FrameWishes wishes) {
@@ -142,6 +143,7 @@ void RunDriver::open_files() {
         files_.emplace(folder, scene_, plan_, simulation_, program_version_, wishes_.keep_rows);
         if (wishes_.to_file) files_->keep_film_moments();
         if (wishes_.key_moments && plan_.trajectory_every > 0) files_->keep_key_moments();
+        files_->add_departures(simulation_);  // those that left when the drive started
         return;
     }
     files_.emplace(RunFiles::GoesOn(), folder, scene_, plan_, simulation_, program_version_,
@@ -287,7 +289,20 @@ std::string RunDriver::packing_text() const {
                        not_kept);
 }
 
-std::optional<std::string> RunDriver::packing_warning() const {
+std::vector<std::string> RunDriver::packing_warnings() const {
+    std::vector<std::string> warnings;
+    if (const auto one = settling_warning()) warnings.push_back(*one);
+    if (packing_.left > 0)
+        warnings.push_back(
+            fmt::format("{}: {} of {} ({:.2g} % of their volume) lay in an exit when the bed was packed, and "
+                        "left at 0 s; "
+                        "unless you mean that, move the exit away from the bed",
+                        scene_.where(scene_.exits.empty() ? "container.outlet" : "exit[0]"), packing_.left,
+                        counted(packing_.left + simulation_.grains(), "grain"), 100 * packing_.left_share));
+    return warnings;
+}
+
+std::optional<std::string> RunDriver::settling_warning() const {
     if (packing_.settled) return std::nullopt;
     if (plan_.start.relaxes)
         return fmt::format(

@@ -96,7 +96,8 @@ class RunDriver {
     double speed() const;                                  // particle-steps/s, time in the engine alone
 
     std::string packing_text() const;
-    std::optional<std::string> packing_warning() const;
+    // Lines about the packing for the user. They are to be asked for before the run goes on.
+    std::vector<std::string> packing_warnings() const;
     // "trajectory.nc (4 frames), measures.csv (30 rows), ..."
     std::string files_text() const;
     // describe() adds to the record what is known when the run begins, and conclude() what is known when it
@@ -106,7 +107,8 @@ class RunDriver {
 
   private:
     bool take_kept_packing(const std::string& key);
-    void keep_packing_of(const std::string& key, double seconds);
+    void keep_packing_of(const std::string& key, const PackingResult& result, double seconds);
+    std::optional<std::string> settling_warning() const;
     void let_former_go(bool at_its_end);
     void open_files();
     bool advance_to(std::int64_t target, const GoOn& go_on);

@@ -117,7 +117,7 @@ bool SceneFolderRun::pack() {
     if (!driver_.pack(watcher)) return false;
     if (const std::string found = driver_.found_packing_text(); !found.empty()) desk_.listener.info(found);
     desk_.listener.detail(driver_.packing_text());
-    if (const auto warning = driver_.packing_warning()) desk_.listener.warning(*warning);
+    for (const std::string& warning : driver_.packing_warnings()) desk_.listener.warning(warning);
     return true;
 }
 

@@ -14,6 +14,7 @@
 #include <xxhash.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/own_folder.hpp"
 #include "engine/base/program.hpp"
 #include "engine/files/foreign/raw_series.hpp"
 #include "engine/files/frames/run_archive.hpp"
@@ -26,19 +27,34 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // for all imports together
+constexpr const char* kImports = "imports";                     // name of their folder in the cache folder
+constexpr const char* kUnfinished = ".part";
 
+// The folder of imports for a user without a cache folder.
 fs::path temporary_imports() {
-    return fs::temp_directory_path() / fmt::format("grainreel-imports-{}", ::getuid());
+    std::error_code error;
+    const fs::path temporary = fs::temp_directory_path(error);
+    if (error)
+        throw UserError(fmt::format(
+            "the temporary folder, in which files of other programs are imported, cannot be used: "
+            "{}; set TMPDIR, or XDG_CACHE_HOME, to a folder of yours",
+            error.message()));
+    return temporary / fmt::format("grainreel-imports-{}", ::geteuid());
 }
 
-// The folder of all imports, which is made if it does not exist.
+// The folder of all imports, which is made if it does not exist. Everybody can make a folder in the temporary
+// folder, so one that is not the user's alone is refused.
 fs::path import_folder() {
-    std::error_code error;
-    const fs::path cache = cache_folder(), imports = cache / "imports";
-    if (!cache.empty() && (fs::create_directories(imports, error), !error) &&
-        ::access(imports.c_str(), W_OK) == 0)
-        return imports;
-    return temporary_imports();
+    const fs::path kept = cache_folder() / kImports;
+    if (make_own_cache_folder(kImports).empty() && ::access(kept.c_str(), W_OK) == 0) return kept;
+    const fs::path imports = temporary_imports();
+    const std::string fault = make_own_folder(imports);
+    if (!fault.empty())
+        throw UserError(
+            fmt::format("{}: {}, so that files of other programs cannot be imported there; remove "
+                        "it, or set XDG_CACHE_HOME to a folder of yours",
+                        imports.string(), fault));
+    return imports;
 }
 
 // All files on which the import may depend.
@@ -104,11 +120,24 @@ std::uintmax_t size_of(const fs::path& folder) {
     return bytes;
 }
 
+// Whether this is the folder of an import, finished or not. Its name is a key, and .PROCESS.part follows
+// while it is being made. Only such folders are counted and removed.
+bool is_import(const fs::path& folder) {
+    constexpr std::size_t kKey = 32;
+    const std::string name = folder.filename().string();
+    const std::size_t digits = name.find_first_not_of("0123456789abcdef");
+    const bool named = digits == std::string::npos
+                           ? name.size() == kKey
+                           : digits == kKey && name[kKey] == '.' && folder.extension() == kUnfinished;
+    std::error_code error;
+    return named && is_own(folder) && fs::symlink_status(folder, error).type() == fs::file_type::directory;
+}
+
 // Whether another process may be working on an unfinished import. One older than a day was left by a process
 // that was killed.
 bool is_being_made(const fs::path& folder) {
     std::error_code error;
-    return folder.extension() == ".part" &&
+    return folder.extension() == kUnfinished &&
            fs::file_time_type::clock::now() - fs::last_write_time(folder, error) < std::chrono::hours(24);
 }
 
@@ -123,7 +152,7 @@ void make_room(const fs::path& imports, const fs::path& keep) {
     std::uintmax_t bytes = 0;
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(imports, error)) {
-        if (!entry.is_directory(error)) continue;
+        if (!is_import(entry.path())) continue;
         all.push_back({entry.path(), entry.last_write_time(error), size_of(entry.path())});
         bytes += all.back().bytes;
     }
@@ -160,14 +189,17 @@ ImportedRun cached_import(ImportRequest request) {
     std::error_code error;
     const auto is_there = [&] {
         std::error_code ignored;
-        return fs::exists(place / name / "scene.toml", ignored) &&
+        return was_own_folder(place) && fs::exists(place / name / "scene.toml", ignored) &&
                fs::exists(place / name / kImportNews, ignored);
     };
     if (is_there()) return found(place / name);
     // Each process makes the import in a folder of its own, which it then renames to `place`. The first one
     // to finish keeps the name.
-    const fs::path part = imports / fmt::format("{}.{}.part", place.filename().string(), ::getpid());
+    const fs::path part =
+        imports / fmt::format("{}.{}{}", place.filename().string(), ::getpid(), kUnfinished);
     fs::remove_all(part, error);
+    if (const std::string fault = make_own_folder(part); !fault.empty())
+        throw RunError(fmt::format("{}: cannot be made: {}", part.string(), fault));
     request.folder = part / name;
     try {
         const ImportedRun made = import_run(request);
@@ -198,11 +230,14 @@ ImportedRun cached_import(ImportRequest request) {
 ImportsKept imports_kept() {
     std::error_code error;
     ImportsKept kept;
-    const fs::path cache = cache_folder();
-    kept.folder = cache.empty() ? temporary_imports() : cache / "imports";
     kept.most_bytes = kMostBytes;
+    kept.folder = own_cache_folder(kImports);
+    if (kept.folder.empty()) kept.folder = temporary_imports();
+    if (!fs::exists(fs::symlink_status(kept.folder, error))) return kept;
+    kept.fault = fault_of_own_folder(kept.folder);
+    if (!kept.fault.empty()) return kept;
     for (const fs::directory_entry& entry : fs::directory_iterator(kept.folder, error)) {
-        if (!entry.is_directory(error)) continue;
+        if (!is_import(entry.path())) continue;
         ++kept.imports;
         kept.bytes += size_of(entry.path());
     }

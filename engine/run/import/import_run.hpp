@@ -39,8 +39,9 @@ ImportedRun import_run(const ImportRequest& request);
 
 // The same in the user's cache folder ($XDG_CACHE_HOME/grainreel/imports), where a later call with the same
 // files (by name, size, time and inode), options and program version finds it again. If all imports together
-// exceed 4 GB, those are removed that were not used for the longest time. Without a cache folder the import
-// is made in the temporary folder.
+// exceed 4 GB, those are removed that were not used for the longest time. Without a cache folder that is the
+// user's alone (own_folder.hpp) the import is made in the temporary folder. Throws UserError where a link or
+// somebody else has taken the name there.
 ImportedRun cached_import(ImportRequest request);
 
 // What is in that folder.
@@ -48,6 +49,7 @@ struct ImportsKept {
     std::filesystem::path folder;
     std::size_t imports = 0;
     std::uintmax_t bytes = 0, most_bytes = 0;  // size of all imports together, and its limit
+    std::string fault{};  // why nothing is imported there, in words; empty if all is well
 };
 ImportsKept imports_kept();
 

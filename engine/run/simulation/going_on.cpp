@@ -38,13 +38,16 @@ void Simulation::Impl::go_on() {
     step = header.step;
     start_energy = header.start_energy;
     continued = true;
+    open_exits();
     opened = plan.opens && step >= *plan.opens;
     if (opened) open_outlet(scene, around);
-    if (takes == Takes::packing)
+    if (takes == Takes::packing) {
         begin_packed(gathered);
-    else
+        start_observers();
+    } else {
         take_gathered(gathered);
-    observers.start(moment(), contacts());
+        observers.start(moment(), contacts());
+    }
 }
 
 void Simulation::Impl::check_not_over() const {

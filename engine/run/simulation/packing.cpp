@@ -135,15 +135,33 @@ void Simulation::Impl::begin_drive() {
     if (std::isnan(start_energy)) start_energy = 0;  // a caller's own contact law tells no energy
     step = 0;
     if (observers.need_wall_sums()) loop->tally_walls(wall_scale(scene, plan), step);
+    open_exits();
     open_when_due();
-    observers.start(moment(), contacts());
+}
+
+void Simulation::Impl::open_exits() {
+    for (const Exit& exit : std::exchange(shut_exits, {})) around.exits.push_back(exit);
+}
+
+// Lets the grains leave that lie in an exit when the drive starts, and begins to measure.
+void Simulation::Impl::start_observers() {
+    const auto volume = [](double radius) { return std::pow(radius, 3); };
+    double stays = 0, leaves = 0;
+    loop->let_leave(step);
+    for (const Place& p : grains.place) stays += volume(p.radius);
+    for (const Departure& one : loop->departures()) leaves += volume(one.radius);
+    packed.left = loop->departures().size();
+    packed.left_share = leaves > 0 ? leaves / (stays + leaves) : 0;
+    ObservedState first = moment();
+    first.left_at_start = loop->departures();
+    observers.start(first, contacts());
 }
 
 PackingResult Simulation::pack() {
     return pack([](const PackingProgress&) { return true; });
 }
 
-PackingResult Simulation::pack(const PackingWatcher& watcher) {
+PackingResult Simulation::pack(const PackingWatcher& watcher, const WhenPacked& when_packed) {
     Impl& m = *impl_;
     PackingResult result;
     PackingProgress progress;
@@ -171,6 +189,10 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
     }
     result.solid_fraction = solid_fraction(m.scene.container, m.grains);
     m.begin_drive();
+    if (when_packed && result.finished) when_packed(result);
+    m.start_observers();
+    result.left = m.packed.left;
+    result.left_share = m.packed.left_share;
     return result;
 }
 
@@ -178,7 +200,7 @@ PackingResult Simulation::pack(const PackingWatcher& watcher) {
 
 namespace {
 
-constexpr int kFormat = 1;  // version of keys and files; to be raised if either changes
+constexpr int kFormat = 2;  // version of keys and files; to be raised if either changes
 
 // All numbers of a contact that act on a packing. A number that PairPlan gets for a law must be added here,
 // or a packing of other contacts could be taken from the cache.
@@ -264,6 +286,7 @@ std::string Simulation::packing_key() const {
 void Simulation::save_packing(const std::filesystem::path& file, const std::string& key,
                               const PackingResult& result) const {
     const Impl& m = *impl_;
+    GRAINREEL_CHECK(m.loop->traffic().left == 0);
     grainreel::save_checkpoint(file, key, m.header(), m.grains, *m.loop, m.gathered_of_packing(result),
                                m.feeder.given());
 }
@@ -287,8 +310,8 @@ std::optional<Simulation> Simulation::with_packing(const Scene& scene, const Pla
     }
 }
 
-// Begins with a kept packing. Observers gather from the start of the drive, so nothing of theirs is kept
-// except the last forces on walls.
+// Takes what a kept packing holds besides the state. Observers gather from the start of the drive, so nothing
+// of theirs is kept except the last forces on walls.
 void Simulation::Impl::begin_packed(const std::string& gathered) {
     Bytes in(gathered);
     take_wall_sums(in);

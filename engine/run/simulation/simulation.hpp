@@ -61,7 +61,13 @@ struct PackingResult {
     double settle_time = 0;        // s, simulated
     double kinetic_per_grain = 0;  // J, at the end
     double solid_fraction = 0;     // below the bed's top, that is, where 95 % of the centres lie
+    // Grains that lay in an exit when the bed was packed, and left at step 0; and their share of the volume
+    // of all grains.
+    std::size_t left = 0;
+    double left_share = 0;
 };
+// Called with a packed bed, before grains leave through exits and before anything is measured.
+using WhenPacked = std::function<void(const PackingResult&)>;
 
 // Throws UserError, as a run would, where the grains of a file or a list do not fit the scene.
 void check_start(const Scene& scene, const Plan& plan);
@@ -90,8 +96,9 @@ class Simulation {
     Simulation& operator=(Simulation&&) noexcept;
 
     // Places the grains (layers and radius growth, or rain, then settling), if they are not placed yet.
-    // Afterwards step() is 0. If the scene goes on from a checkpoint (start.keep_clock), it is that step.
-    PackingResult pack(const PackingWatcher& watcher);
+    // Exits do not act on this: grains that then lie in one leave at step 0. Afterwards step() is 0. If the
+    // scene goes on from a checkpoint (start.keep_clock), it is that step.
+    PackingResult pack(const PackingWatcher& watcher, const WhenPacked& when_packed = {});
     PackingResult pack();
     // Everything that decides the result of pack(), as text. Two scenes with the same key have the same
     // packing to the bit, in this program on this processor. Empty if nothing is packed, or if a contact law
@@ -100,8 +107,8 @@ class Simulation {
     // while they grow. Otherwise it has only whether there is a drive, what this moves, and the offset and
     // velocity of what it moves at step 0.
     std::string packing_key() const;
-    // Writes the file for with_packing(). Call it after pack(), before any step. Throws RunError if it cannot
-    // be written.
+    // Writes the file for with_packing(). Call it when the bed is packed (WhenPacked), or after pack() if no
+    // grain has left, before any step. Throws RunError if it cannot be written.
     void save_packing(const std::filesystem::path& file, const std::string& key,
                       const PackingResult& result) const;
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/binary.hpp"
@@ -79,6 +80,7 @@ struct Simulation::Impl {
     Plan plan;
     Team team;
     Surroundings around;
+    std::vector<Exit> shut_exits = std::exchange(around.exits, {});  // exits that do not act yet
     std::vector<Body> bodies;
     Grains grains;
     std::unique_ptr<StepLoop> loop;
@@ -109,6 +111,8 @@ struct Simulation::Impl {
     std::int32_t insert(const std::vector<NewGrain>& more);
     bool pack_layers(const PackingWatcher& watcher, PackingProgress& progress);
     void begin_drive();
+    void start_observers();
+    void open_exits();
     void open_when_due();
     void look_at_health();
     ObservedState moment();

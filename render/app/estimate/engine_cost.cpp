@@ -10,6 +10,7 @@
 #include <string>
 
 #include "engine/base/numbers.hpp"
+#include "engine/base/own_folder.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
@@ -268,7 +269,7 @@ SpeedCache::SpeedCache()
     if (folder.empty()) return;
     path_ = folder / fmt::format("speed-{:016x}.json", std::hash<std::string>()(machine_));
     try {
-        read();
+        if (is_own_folder(folder)) read();
     } catch (const std::exception&) {  // the file is not one that save() has written
         engine_.clear();
         films_.clear();
@@ -314,8 +315,8 @@ void SpeedCache::save() const {
         films[look] = {{"seconds", film.seconds}, {"drawing", film.drawing}};
     const Json all = {{"machine", machine_}, {"engine", engine}, {"film", films}};
     try {
-        fs::create_directories(path_.parent_path());
-        replace_file(path_, all.dump(1) + "\n");
+        fs::create_directories(path_.parent_path().parent_path());
+        if (make_own_folder(path_.parent_path()).empty()) replace_file(path_, all.dump(1) + "\n");
     } catch (const std::exception&) {  // when the cache cannot be kept, the speeds are measured again
     }
 }

@@ -20,6 +20,7 @@ extern "C" {
 #include <libswscale/version.h>
 }
 
+#include "engine/base/own_files.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/vector/instructions.hpp"
 #include "render/app/options/cli.hpp"
@@ -66,6 +67,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
 }
 
 std::string where_program_is() {
+    if (!own_files().empty()) return "unpacked in " + own_files().parent_path().parent_path().string();
     std::error_code none;
     const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
     if (none) return "unknown";

@@ -165,6 +165,9 @@ std::vector<Diagnosis> find_imports() {
     constexpr double megabyte = 1e6;
     const ImportsKept kept = imports_kept();
     const std::string of = kept.folder.string();
+    if (!kept.fault.empty())
+        return {{"imported files", fmt::format("none: {} {}", of, kept.fault), false, false,
+                 "remove it, or set XDG_CACHE_HOME to a folder of yours"}};
     if (kept.imports == 0) return {{"imported files", fmt::format("none in {}", of)}};
     return {{"imported files",
              fmt::format(

@@ -7,7 +7,7 @@
     picture = grainreel.render(run, at=0.1)            # rows x columns x 3, of 0 to 255
 
 Needs numpy and xarray with a reader of NetCDF (Debian: python3-xarray, python3-netcdf4), and the program itself: the
-argument `program`, else $GRAINREEL, else `grainreel` on the PATH. SI units; every variable says its own in
+argument `program`, else $GRAINREEL, else the one in the wheel that this module came in, else `grainreel` on the PATH. SI units; every variable says its own in
 attrs["units"]. What goes wrong is a GrainreelError with one line that says what to do.
 """
 import csv
@@ -151,8 +151,11 @@ def _read_measures(file):
 # ---- the program
 
 
+_OF_WHEEL = Path(__file__).with_name("grainreel_program") / "bin" / "grainreel"
+
+
 def _program(given):
-    name = given or os.environ.get("GRAINREEL") or "grainreel"
+    name = given or os.environ.get("GRAINREEL") or (_OF_WHEEL if _OF_WHEEL.exists() else "grainreel")
     found = shutil.which(os.fspath(name))
     if not found:
         raise GrainreelError(f"{name}: is not found; install grainreel, or give program= or $GRAINREEL")

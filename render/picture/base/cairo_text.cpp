@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/own_files.hpp"
 #include "render/picture/gl/addresses.hpp"
 
 namespace grainreel {
@@ -30,12 +31,19 @@ struct DestroyConfig {
 };
 using Config = std::unique_ptr<FcConfig, DestroyConfig>;
 
-// The two font files that all words are written with, from the folders where distributions keep them. Null
-// when they are not there.
+// Where the two font files may be: in the archive that the program was unpacked from, or where distributions
+// keep them.
+std::vector<std::string> font_folders() {
+    std::vector<std::string> folders{"/usr/share/fonts/truetype/dejavu/",
+                                     "/usr/share/fonts/dejavu-sans-fonts/", "/usr/share/fonts/TTF/",
+                                     "/usr/share/fonts/dejavu/"};
+    if (!own_files().empty()) folders.insert(folders.begin(), own_files().string() + "/fonts/");
+    return folders;
+}
+
+// The two font files that all words are written with. Null when they are not there.
 Config own_fonts() {
-    for (const std::string folder :
-         {"/usr/share/fonts/truetype/dejavu/", "/usr/share/fonts/dejavu-sans-fonts/", "/usr/share/fonts/TTF/",
-          "/usr/share/fonts/dejavu/"}) {
+    for (const std::string& folder : font_folders()) {
         Config config(FcConfigCreate());
         const auto add = [&](const char* name) {
             const std::string file = folder + name;

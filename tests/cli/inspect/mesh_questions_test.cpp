@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "engine/mesh/surface.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/ray.hpp"
 #include "tests/cli/mesh_scene.hpp"

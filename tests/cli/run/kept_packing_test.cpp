@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -326,6 +327,35 @@ TEST_F(PackingProgram, RunsWithAFullCacheAndLeavesNothingThere) {
     EXPECT_THAT(full.err, HasSubstr("for later runs it is not kept: "));
     EXPECT_THAT(full.err, HasSubstr("is the disk full?"));
     EXPECT_TRUE(kept().empty());
+}
+
+// A link could lead to any folder, and the oldest files there would be removed.
+TEST_F(PackingProgram, KeepsAndRemovesNothingBehindALink) {
+    const fs::path victim = here / "victim";
+    fs::create_directory(victim);
+    write_text(victim / "old.jpg", "a picture");
+    fs::last_write_time(victim / "old.jpg", fs::file_time_type::clock::now() - std::chrono::hours(48));
+    fs::create_directories(here / "cache/grainreel");
+    fs::create_symlink(victim, here / "cache/grainreel/packings");
+    const Ended ended = movie("run", {"--verbose"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("packings: is a link"));
+    EXPECT_TRUE(fs::exists(victim / "old.jpg"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(victim), fs::directory_iterator()), 1);
+}
+
+TEST_F(PackingProgram, RemovesNothingButPackings) {
+    const fs::path packings = here / "cache/grainreel/packings";
+    fs::create_directories(packings);
+    const std::string left_over = "0123456789abcdef0123456789abcdef.grs.17-0.new";
+    for (const std::string& name : {std::string("old.jpg"), left_over}) {
+        write_text(packings / name, "old");
+        fs::last_write_time(packings / name, fs::file_time_type::clock::now() - std::chrono::hours(48));
+    }
+    ASSERT_EQ(movie("run").status, 0);
+    EXPECT_TRUE(fs::exists(packings / "old.jpg"));
+    EXPECT_FALSE(fs::exists(packings / left_over));
+    EXPECT_EQ(kept().size(), 2u);
 }
 
 TEST_F(PackingProgram, TwoRunsAtOnceBothKeepIt) {

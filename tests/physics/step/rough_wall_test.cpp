@@ -367,5 +367,63 @@ TEST(RoughWalls, EnergyBalances) {
     EXPECT_LT(worst, of_rounding(2e-3, 1e-2) * balance.terms().lost());
 }
 
+// Few grains lie in a thin layer, between the glued grains, so that they start small and light.
+constexpr const char* kFewInACylinder = R"(
+[[species]]
+name = "grains"
+count = 6
+diameter = "4 mm"
+density = 500
+[container]
+shape = "cylinder"
+height = "80 mm"
+diameter = "48 mm"
+wall_grains = { species = "grains", faces = ["floor"] }
+[drive]
+frequency = "200 Hz"
+amplitude = "0.7 mm"
+[start]
+settle_limit = "1 ms"
+[run]
+duration = "0.02 s"
+accuracy = "draft"
+)";
+
+// Packs so many grains and looks at the health of the first step. Each grain must lie in the cylinder, and
+// overlap no other body by more than a hundredth of its radius.
+void expect_to_start(int grains, int seed, const char* face, const char* gravity) {
+    const std::vector<std::string> sets{
+        fmt::format("species.grains.count={}", grains), fmt::format("run.seed={}", seed),
+        fmt::format("container.wall_grains.faces=[\"{}\"]", face), fmt::format("gravity={}", gravity)};
+    const Scene scene =
+        read_scene_text(kFewInACylinder, "few.toml", with_tested_precision(sets), measurable_in);
+    const std::string what = fmt::format("{} grains, seed {}, {}, {} m/s2", grains, seed, face, gravity);
+    Simulation run(scene, make_plan(scene), 1);
+    run.pack();
+    const Frame frame = run.frame();
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const Vec3& at = frame.position[i];
+        EXPECT_LE(std::hypot(at.x(), at.y()), 0.024 - 0.99 * frame.radius[i]) << what;
+        EXPECT_GE(at.z(), 0.99 * frame.radius[i]) << what;
+        EXPECT_LE(at.z(), 0.08) << what;
+    }
+    for (const ContactForce& contact : run.contact_forces())
+        EXPECT_LT(contact.overlap, 1e-2 * contact.smaller_radius) << what;
+    EXPECT_NO_THROW(run.advance(1)) << what;
+}
+
+TEST(RoughWalls, AFewGrainsStartBetweenGluedOnes) {
+    for (int seed = 1; seed <= 60; ++seed)
+        for (const char* face : {"floor", "wall"})
+            expect_to_start(1 + seed % 12, seed, face, seed % 2 == 0 ? "0" : "9.81");
+}
+
+TEST(RoughWalls, AnyFewGrainsStartBetweenGluedOnesLong) {
+    for (int seed = 1; seed <= 60; ++seed)
+        for (int grains = 1; grains <= 12; ++grains)
+            for (const char* face : {"floor", "wall"})
+                for (const char* gravity : {"0", "9.81"}) expect_to_start(grains, seed, face, gravity);
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -11,10 +11,13 @@
 #include <system_error>
 #include <vector>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include "engine/base/binary.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/own_folder.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/program.hpp"
 
 namespace grainreel {
 
@@ -63,7 +66,8 @@ namespace fs = std::filesystem;
 // An index file has an Identity, then this line, then the values that index_bytes() writes. Whoever changes
 // their order changes the number, so that an older file is not misread.
 constexpr std::string_view magic = "grainreel index 1\n";
-constexpr std::size_t hashed = 65536;  // bytes at each end of the file
+constexpr std::size_t hashed = 65536;        // bytes at each end of the file
+constexpr const char* kIndices = "indices";  // name of their folder in the cache folder
 
 // What identifies the file that an index belongs to.
 struct Identity {
@@ -177,6 +181,15 @@ std::optional<KeptIndex> index_in(const fs::path& path, const FileBytes& file, c
     return KeptIndex{std::move(*index), then.size == now.size};
 }
 
+// Whether an index may be believed: it is a file, and the user or the owner of the dump has written it. Both
+// may lie in a folder in which everybody may make files.
+bool is_believed(const fs::path& index, const fs::path& file) {
+    struct stat one {
+    }, other{};
+    return ::lstat(index.c_str(), &one) == 0 && S_ISREG(one.st_mode) && ::stat(file.c_str(), &other) == 0 &&
+           (one.st_uid == ::geteuid() || one.st_uid == other.st_uid);
+}
+
 }  // namespace
 
 std::string index_bytes(const TextIndex& index) {
@@ -229,8 +242,8 @@ std::vector<fs::path> index_places(const fs::path& file) {
     std::vector<fs::path> places{whole.parent_path() /
                                  ("." + whole.filename().string() + ".grainreel-index")};
     const std::string name = whole.string();
-    if (const fs::path cache = cache_folder(); !cache.empty())
-        places.push_back(cache / "indices" /
+    if (const fs::path indices = own_cache_folder(kIndices); !indices.empty())
+        places.push_back(indices /
                          fmt::format("{:016x}.grainreel-index", XXH64(name.data(), name.size(), 0)));
     return places;
 }
@@ -238,7 +251,8 @@ std::vector<fs::path> index_places(const fs::path& file) {
 std::optional<KeptIndex> kept_index(const fs::path& file, const FileState& state) {
     const FileBytes bytes(file);
     for (const fs::path& place : index_places(file))
-        if (std::optional<KeptIndex> kept = index_in(place, bytes, state)) return kept;
+        if (is_believed(place, file))
+            if (std::optional<KeptIndex> kept = index_in(place, bytes, state)) return kept;
     return std::nullopt;
 }
 
@@ -249,8 +263,8 @@ void keep_index(const fs::path& file, const FileState& state, const TextIndex& i
     each_of(write, identity);
     const std::string all = out.str() + index_bytes(index);
     for (const fs::path& place : index_places(file)) {
-        std::error_code ignored;  // the folder of the file exists; the one in the cache may have to be made
-        fs::create_directories(place.parent_path(), ignored);
+        // The folder of the file exists; the one in the cache may have to be made.
+        if (place.parent_path().filename() == kIndices) make_own_cache_folder(kIndices);
         try {
             replace_file(place, all);
             return;

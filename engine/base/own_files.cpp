@@ -1,0 +1,39 @@
+#include "engine/base/own_files.hpp"
+
+#include <cstdlib>
+#include <system_error>
+
+namespace grainreel {
+
+namespace {
+
+// In an archive the program is lib/grainreel/grainreel.
+std::filesystem::path find_own_files() {
+    std::error_code none;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
+    const std::filesystem::path top = program.parent_path().parent_path().parent_path();
+    const std::filesystem::path folder = top / "share" / "grainreel";
+    const bool unpacked = !none && program == top / "lib" / "grainreel" / "grainreel" &&
+                          std::filesystem::exists(folder / "files", none);
+    return unpacked ? folder : std::filesystem::path();
+}
+
+void set_file(const char* variable, const std::filesystem::path& file) {
+    constexpr int keep = 0;
+    ::setenv(variable, file.c_str(), keep);
+}
+
+}  // namespace
+
+const std::filesystem::path& own_files() {
+    static const std::filesystem::path folder = find_own_files();
+    return folder;
+}
+
+void use_own_files() {
+    if (own_files().empty()) return;
+    set_file("UDUNITS2_XML_PATH", own_files() / "units" / "udunits2.xml");
+    set_file("FONTCONFIG_FILE", own_files() / "fonts.conf");
+}
+
+}  // namespace grainreel

@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Makes the folder of an archive for the tests Archive and Wheel: archive_tree.sh LEAN TREE MAKE_TREE...
+# LEAN is the FFmpeg that the target `archive` builds; the system's is taken where it is not there.
+set -euo pipefail
+lean=$1 tree=$2
+shift 2
+command -v patchelf >/dev/null || { echo "patchelf is not installed"; exit 77; }
+[[ -s $lean/source ]] || lean=system
+rm -rf "$tree"
+mkdir -p "$(dirname "$tree")"
+"$@" --ffmpeg "$lean" "$tree"
+echo "FFmpeg: $lean; $(du -sm "$tree" | cut -f1) MB"
