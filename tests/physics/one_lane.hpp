@@ -54,7 +54,7 @@ OneLane<Number, fused> guess_inverse_cube_root(OneLane<Number, fused> x) {
 }
 template <class Number, bool fused>
 OneLane<Number, fused> any_power(OneLane<Number, fused> base, OneLane<Number, fused> exponent) {
-    return OneLane<Number, fused>::of(std::pow(base.value, exponent.value));
+    return OneLane<Number, fused>::of(any_power(base.value, exponent.value));
 }
 
 }  // namespace grainreel::HWY_NAMESPACE
