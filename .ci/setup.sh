@@ -72,12 +72,13 @@ list_libraries() {  # $1: a package table
     sed '/^$/d; s/^/  /' <<<"$1" >&2
 }
 
+# (dpkg-query and apt-cache fail where they do not know one of the names.)
 installed() {  # $@: packages. Prints those that are installed.
-    dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p'
+    { dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true; } | sed -n 's/^installed //p'
 }
 
 offered() {  # $@: packages. Prints those that apt can install.
-    apt-cache policy "$@" 2>/dev/null |
+    { apt-cache policy "$@" 2>/dev/null || true; } |
         awk '/^[^ ]/ { name = $1; sub(/(:[a-z0-9]+)?:$/, "", name) } $1 == "Candidate:" && $2 != "(none)" { print name }'
 }
 
@@ -123,7 +124,7 @@ install_packages() {  # $1: a package table. Returns at once when all of it is i
     offer=$(offered ${missing//|/ })
     chosen=$(choose_packages "$missing" "$offer")
     lacking=$(sed -n 's/^!//p' <<<"$chosen" | tr '\n' ' ')
-    chosen=$(grep -v '^!' <<<"$chosen" | sort | tr '\n' ' ')
+    chosen=$(sed '/^!/d' <<<"$chosen" | sort | tr '\n' ' ')
     if [[ -n $lacking ]]; then
         say "This system's package sources have none of: $lacking"
         say "Nothing was installed. Install what they stand for by other means and add --no-install,"

@@ -13,7 +13,11 @@ touch "$tree/scenes/one.toml" "$work/elsewhere/two.toml"
 
 stub() { printf '#!/bin/bash\n%s\n' "$2" >"$stubs/$1" && chmod 755 "$stubs/$1"; }
 stub apt-get 'echo "apt-get $*" >>"$CALLS"; [[ $* != *install* || -z ${APT_FAILS-} ]]'
-stub dpkg-query 'for p; do [[ $p == -* || $p == \$* || " ${ABSENT-} " == *" $p "* ]] || echo "installed $p"; done'
+# As the real ones: dpkg-query fails where it does not know a package, apt-cache passes over it.
+stub dpkg-query 'lacks=0
+for p; do if [[ " ${ABSENT-} " == *" $p "* ]]; then lacks=1; elif [[ $p != -* && $p != \$* ]]; then echo "installed $p"; fi; done
+exit $lacks'
+stub apt-cache 'for p in "${@:2}"; do if [[ " ${NOWHERE-} " != *" $p "* ]]; then printf "%s:\n  Candidate: 1\n" "$p"; fi; done'
 stub sudo 'exit 1'
 stub cmake 'echo "cmake $*" >>"$CALLS"; mkdir -p build/release; touch build/release/build.ninja
 { echo "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD"; for o; do echo "${o#-D}" | sed "s/=/:BOOL=/"; done; } >build/release/CMakeCache.txt'
@@ -86,6 +90,15 @@ run env ABSENT="libpng-dev ninja-build" "$tree/movie"
 if ((EUID == 0)); then
     contains "names what it installs" "Installing with apt: libpng-dev ninja-build" "$said"
     contains "installs only that" "install --no-install-recommends libpng-dev ninja-build" "$did"
+    run env ABSENT="libosmesa6 libegl-mesa0" NOWHERE=libosmesa6 "$tree/movie"
+    contains "takes the second name" "install --no-install-recommends libegl-mesa0" "$did"
+    run env ABSENT=libosmesa6 "$tree/movie"
+    expect "one of two names is enough" "ninja grainreel" "$did"
+    run env ABSENT="libpng-dev libfmt-dev ninja-build" NOWHERE="libpng-dev libfmt-dev" "$tree/movie"
+    expect "packages that are nowhere" 2 "$status"
+    contains "all of them are named" "This system's package sources have none of: libfmt-dev libpng-dev" "$said"
+    contains "the way out" "the archive, which needs no packages" "$said"
+    expect "nothing is installed then" "" "$(grep install <<<"$did")"
     run env ABSENT=libpng-dev APT_FAILS=1 "$tree/movie"
     expect "apt fails" 2 "$status"
     contains "apt fails: the list" "libpng-dev           libpng" "$said"

@@ -269,7 +269,7 @@ TEST(BedInstrument, FindsTheFlightOfABlock) {
 // The run is stopped in the middle of a window and of a flight, and resumed: every column has the same bits.
 TEST(Instruments, GoOnFromACheckpointBitByBit) {
     const test::TemporaryFolder here;
-    const Scene scene = shaken({"run.duration=0.7 s"});
+    const Scene scene = shaken({"run.duration=0.7 s", "run.seed=2"});
     const Plan plan = make_plan(scene);
     const std::int64_t period = plan.clock.steps_per_period;
     Simulation whole(scene, plan, 1);
@@ -290,9 +290,8 @@ TEST(Instruments, GoOnFromACheckpointBitByBit) {
         const double a = expected.at(name), b = found.at(name);
         EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << name << " " << a << " " << b;
     }
-    // In a bed of 50 grains a roll may be found on one side only.
-    EXPECT_TRUE(std::isfinite(expected.at("roll_right_m")) || std::isfinite(expected.at("roll_left_m")));
-    for (const char* name : {"flow_left_error_m", "roll_left_y_m", "surface_half", "takeoff_turns"})
+    for (const char* name :
+         {"flow_left_error_m", "roll_right_m", "roll_left_y_m", "surface_half", "takeoff_turns"})
         EXPECT_TRUE(std::isfinite(expected.at(name))) << name;
 }
 
