@@ -110,7 +110,7 @@ install_packages() {  # $1: a package table. Returns at once when all of it is i
             as_root=(sudo)
         else
             # shellcheck disable=SC2086
-            chosen=$(choose_packages "$missing" "$(offered ${missing//|/ })" | sed 's/^!//; s/|.*//' | tr '\n' ' ')
+            chosen=$(choose_packages "$missing" "$(offered ${missing//|/ })" | sed 's/^!//; s/|.*//' | sort | tr '\n' ' ')
             say "These packages are missing, and installing them needs root. Ask for:"
             say "  apt-get install --no-install-recommends $chosen"
             say "Without root: the archive needs no packages ($archive_words)."
@@ -123,7 +123,7 @@ install_packages() {  # $1: a package table. Returns at once when all of it is i
     offer=$(offered ${missing//|/ })
     chosen=$(choose_packages "$missing" "$offer")
     lacking=$(sed -n 's/^!//p' <<<"$chosen" | tr '\n' ' ')
-    chosen=$(grep -v '^!' <<<"$chosen" | tr '\n' ' ')
+    chosen=$(grep -v '^!' <<<"$chosen" | sort | tr '\n' ' ')
     if [[ -n $lacking ]]; then
         say "This system's package sources have none of: $lacking"
         say "Nothing was installed. Install what they stand for by other means and add --no-install,"

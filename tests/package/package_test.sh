@@ -13,7 +13,7 @@ fail() { echo "FAILED: $*" >&2; exit 1; }
 cd "$build"
 rm -f engine/libgrainreel_engine_library.a render/libgrainreel_picture_library.a
 find engine/CMakeFiles/grainreel_engine_library.dir render/CMakeFiles/grainreel_picture_library.dir -name '*.o' -delete
-cpack -B "$here/made" >"$here/cpack.log" 2>&1 || { cat "$here/cpack.log"; fail "cpack ended with $?"; }
+cpack -B "$here/made" >"$here/cpack.log" 2>&1 || { cat "$here/cpack.log"; fail "cpack made no packages"; }
 package=$(echo "$here"/made/grainreel_*.deb)
 (($(stat -c %s "$package") < 10000000)) || fail "$package is larger than 10 MB"
 # FFmpeg's packages are called by the major version of their library: libavutil57.

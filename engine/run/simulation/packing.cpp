@@ -145,7 +145,7 @@ void Simulation::Impl::open_exits() {
 
 // Lets the grains leave that lie in an exit when the drive starts, and begins to measure.
 void Simulation::Impl::start_observers() {
-    const auto volume = [](double radius) { return std::pow(radius, 3); };
+    const auto volume = [](double radius) { return math::cube(radius); };
     double stays = 0, leaves = 0;
     loop->let_leave(step);
     for (const Place& p : grains.place) stays += volume(p.radius);

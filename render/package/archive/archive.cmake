@@ -56,7 +56,7 @@ set(archive_command ${ARCHIVE_PYTHON} ${archive_sources}/make_tree.py --build ${
 set(archive_tree ${archive_made}/${archive_name})
 add_custom_target(archive_tree
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${archive_tree}
-  COMMAND ${archive_command} --ffmpeg ${archive_ffmpeg} ${archive_tree}
+  COMMAND ${CMAKE_COMMAND} -E env GRAINREEL_BUILT=1 ${archive_command} --ffmpeg ${archive_ffmpeg} ${archive_tree}
   DEPENDS ${archive_waits} COMMENT "Gathering what an archive holds" VERBATIM)
 
 # The starter comes last: where unpacking was broken off it is not there yet.

@@ -139,8 +139,9 @@ TEST_F(CompareProgram, FinishedRunsLackNothing) {
     };
     compare("weak.toml", "strong.toml", "live");
     EXPECT_THAT(compare("weak", "strong", "finished"), Not(HasSubstr("warning")));
-    // (The last frame is left out, because the trajectory has its arrows only in single precision.)
-    for (const char* frame : {"frames/000000.png", "frames/000001.png", "frames/000003.png"}) {
+    // (The last two frames are left out, because the trajectory has their arrows only in single precision: a
+    // pixel may differ by one step of 255.)
+    for (const char* frame : {"frames/000000.png", "frames/000001.png", "frames/000002.png"}) {
         const auto pixels = [&](const char* folder) {
             const std::string text = text_of(here / folder / frame);
             return text.substr(text.find("IDAT"));

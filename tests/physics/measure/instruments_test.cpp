@@ -290,8 +290,9 @@ TEST(Instruments, GoOnFromACheckpointBitByBit) {
         const double a = expected.at(name), b = found.at(name);
         EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << name << " " << a << " " << b;
     }
-    for (const char* name :
-         {"flow_left_error_m", "roll_right_m", "roll_left_y_m", "surface_half", "takeoff_turns"})
+    // In a bed of 50 grains a roll may be found on one side only.
+    EXPECT_TRUE(std::isfinite(expected.at("roll_right_m")) || std::isfinite(expected.at("roll_left_m")));
+    for (const char* name : {"flow_left_error_m", "roll_left_y_m", "surface_half", "takeoff_turns"})
         EXPECT_TRUE(std::isfinite(expected.at(name))) << name;
 }
 
