@@ -38,6 +38,7 @@ libswscale-dev       libswscale
 libavfilter-dev      libavfilter
 gnuplot-nox          gnuplot, for ./movie chart
 dpkg-dev             dpkg-shlibdeps, for cpack
+file                 file, for cpack
 "
 test_packages="
 libgtest-dev         gtest

@@ -1,7 +1,7 @@
 // Compares a picture of each feature with the one that was looked at and kept in tests/draw/golden. To draw
 // all of them anew:
 //
-//   GRAINREEL_WRITE_GOLDEN=1 build/release/tests/test_draw --gtest_filter='Golden*'
+//   GRAINREEL_WRITE_GOLDEN=1 build/release/tests/test_draw --gtest_filter='*Golden*'
 //
 // Look at each picture before committing it.
 #include <gtest/gtest.h>
