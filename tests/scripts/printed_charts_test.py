@@ -113,9 +113,14 @@ def pdf_streams(data):
             continue
 
 
-def check_pdf(file, times, values, width, height):
+def pdf_text(file):
+    """All that a PDF says, out of its streams too: since Cairo 1.18 pages and fonts stand there."""
     data = file.read_bytes()
-    data += b"".join(pdf_streams(data))  # since Cairo 1.18 pages and fonts are told in streams too
+    return data + b"".join(pdf_streams(data))
+
+
+def check_pdf(file, times, values, width, height):
+    data = pdf_text(file)
     box = list(map(float, re.search(rb"/MediaBox \[ ([\d. ]+)\]", data)[1].split()))
     check(abs(box[2] * POINT - width) < 0.18 and abs(box[3] * POINT - height) < 0.18,
           f"{file}: has {box[2] * POINT} mm x {box[3] * POINT} mm")
@@ -162,7 +167,7 @@ def check_run(folder):
             check("(mm)" in (folder / f"fig/{name}.svg").read_text(encoding="utf-8"), "the unit is missing")
     run(folder, "report", "bed", "--charts", "wide", "--width-mm", "170", "--as", "pdf")
     check({file.suffix for file in (folder / "wide").iterdir()} == {".csv", ".gp", ".pdf"}, "other files than were asked for")
-    box = re.search(rb"/MediaBox \[ 0 0 (\d+) (\d+)", next((folder / "wide").glob("*.pdf")).read_bytes())
+    box = re.search(rb"/MediaBox \[ 0 0 (\d+) (\d+)", pdf_text(next((folder / "wide").glob("*.pdf"))))
     check((int(box[1]), int(box[2])) == (482, 283), f"170 mm x 100 mm are not {box[1]} x {box[2]} points")
 
 
