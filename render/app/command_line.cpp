@@ -61,6 +61,17 @@ void check_options(const Verb& verb, const CLI::App& parser, int argc, const cha
     }
 }
 
+// Texts stay as they are written. CLI11 2.5 and newer would else break their lines anew, without their columns.
+template <typename Formatter>
+void keep_lines(Formatter& formatter) {
+    if constexpr (requires { formatter.enable_footer_formatting(false); }) {
+        constexpr std::size_t no_limit = 1000;  // letters
+        formatter.enable_description_formatting(false);
+        formatter.enable_footer_formatting(false);
+        formatter.right_column_width(no_limit);
+    }
+}
+
 // A formatter of help that leaves out the list of excluded options where the list is long.
 class ShortFormatter final : public CLI::Formatter {
   public:
@@ -163,6 +174,7 @@ std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
     app->set_version_flag("--version", std::function<std::string()>(version_text));
     app->formatter(std::make_shared<ShortFormatter>());
     app->get_formatter()->column_width(28);
+    keep_lines(*app->get_formatter());
     app->footer(
         as_called("Begin with:  grainreel movie scenes/wedge_segregation.toml\n"
                   "More about a verb:  grainreel movie --help"));
