@@ -5,8 +5,8 @@
 # rename one, or run `cmake --preset release` to get other batches.
 # A file that defines macros, is compiled for several vector targets or replaces operator new stays alone.
 # -DGRAINREEL_BATCH=1 compiles every file by itself.
-set(GRAINREEL_BATCH 8 CACHE STRING "Source files of the program that are compiled together")
-set(GRAINREEL_BATCH_BYTES 48000)
+set(GRAINREEL_BATCH 20 CACHE STRING "Source files of the program that are compiled together")
+set(GRAINREEL_BATCH_BYTES 110000)
 
 # Finds the names in a source's unnamed namespaces: `functions`, and `others` (types and constants). The name of the
 # program is none: it is a word of texts.

@@ -2,7 +2,7 @@
 # out once a batch, which more than halves the time of the build. Each file's unnamed namespace gets the file's name
 # in the batch, so that files may name their helpers alike. A file that defines macros, goes through vector targets
 # or replaces operator new stays alone. -DGRAINREEL_TEST_BATCH=1 compiles every file by itself.
-set(GRAINREEL_TEST_BATCH 8 CACHE STRING "Test files that are compiled together")
+set(GRAINREEL_TEST_BATCH 12 CACHE STRING "Test files that are compiled together")
 
 if(CMAKE_SCRIPT_MODE_FILE)  # cmake -DBATCH=out.cpp -P batches.cmake -- source ...
   set(text "")
