@@ -61,7 +61,8 @@ void check_options(const Verb& verb, const CLI::App& parser, int argc, const cha
     }
 }
 
-// Texts stay as they are written. CLI11 2.5 and newer would else break their lines anew, without their columns.
+// Texts stay as they are written. CLI11 2.5 and newer would else break their lines anew, without their
+// columns.
 template <typename Formatter>
 void keep_lines(Formatter& formatter) {
     if constexpr (requires { formatter.enable_footer_formatting(false); }) {

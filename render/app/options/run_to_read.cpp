@@ -108,8 +108,8 @@ std::vector<Pair> pairs_of(const std::string& option, const std::string& text, c
     return pairs;
 }
 
-double positive(const std::string& option, const std::string& text, Dimension dimension,
-                const char* example) {
+double positive_quantity(const std::string& option, const std::string& text, Dimension dimension,
+                         const char* example) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool plain =
@@ -136,11 +136,11 @@ void set_columns(ReadingOptions& reading, const std::string& text) {
 
 void set_radius(ReadingOptions& reading, const std::string& text) {
     if (text.find('=') == std::string::npos) {
-        reading.radius = positive("--radius", text, Dimension::length, "2 mm");
+        reading.radius = positive_quantity("--radius", text, Dimension::length, "2 mm");
         return;
     }
     for (const auto& [type, radius] : pairs_of("--radius", text, "1=2mm,2=5mm"))
-        reading.radius_of_type[type] = positive("--radius", radius, Dimension::length, "2 mm");
+        reading.radius_of_type[type] = positive_quantity("--radius", radius, Dimension::length, "2 mm");
 }
 
 void set_units(ReadingOptions& reading, const std::string& text) {
@@ -177,7 +177,7 @@ void add_reading(CLI::App& verb, ReadingOptions& reading) {
         set_radius);
     add("--time-step", "TIME", "Length of a step if the file has no times, as in 1us or 1e-6",
         [](ReadingOptions& to, const std::string& text) {
-            to.time_step = positive("--time-step", text, Dimension::time, "1e-6");
+            to.time_step = positive_quantity("--time-step", text, Dimension::time, "1e-6");
         });
     add("--units", "NAME", "Units of the file: si, lj, cgs, micro, nano, real, metal [as it says, else si]",
         set_units);
@@ -188,7 +188,7 @@ void add_reading(CLI::App& verb, ReadingOptions& reading) {
         });
     add("--density", "DENSITY", "Density of the grains if the file has none [2500 kg/m3]",
         [](ReadingOptions& to, const std::string& text) {
-            to.density = positive("--density", text, Dimension::density, "2500 kg/m3");
+            to.density = positive_quantity("--density", text, Dimension::density, "2500 kg/m3");
         });
     add("--contacts", "FILE", "Contacts of the same run: a file or a quoted pattern; may be repeated",
         [](ReadingOptions& to, const std::string& text) { to.contacts.push_back(text); });
@@ -196,7 +196,7 @@ void add_reading(CLI::App& verb, ReadingOptions& reading) {
         [](ReadingOptions& to, const std::string& text) { to.walls.push_back(text); });
     add("--walls-scale", "NUMBER", "Length of one unit of the walls' files in m, as in 0.001",
         [](ReadingOptions& to, const std::string& text) {
-            to.walls_scale = positive("--walls-scale", text, Dimension::length, "0.001");
+            to.walls_scale = positive_quantity("--walls-scale", text, Dimension::length, "0.001");
         });
     add("--container", "SCENE", "Scene that gives the container, walls and drive around the grains",
         [](ReadingOptions& to, const std::string& text) { to.container = text; });

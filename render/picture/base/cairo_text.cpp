@@ -275,11 +275,11 @@ std::vector<float> halo_in(cairo_surface_t* from, const Rectangle& part, const S
 
 }  // namespace
 
-Halo halo_of(const TypeScale& type, const Palette& palette) {
+WordHalo halo_of(const TypeScale& type, const Palette& palette) {
     return {palette.background, std::max(2.0, 0.18 * type.minor)};
 }
 
-void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int y, const Halo& halo,
+void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int y, const WordHalo& halo,
                        Picture& picture) {
     cairo_surface_flush(from);
     const std::vector<float> strength = halo_in(from, part, make_stamp(halo.reach));

@@ -62,16 +62,16 @@ void copy_part(cairo_surface_t* from, const Rectangle& part, int x, int y, Pictu
 
 // A soft seam around the letters of words that have no background, so that they are legible on whatever lies
 // under them.
-struct Halo {
+struct WordHalo {
     Colour colour;
     double reach = 0;  // pixels beyond the words
 };
 // The halo's colour is the background that the words are made for.
-Halo halo_of(const TypeScale& type, const Palette& palette);
+WordHalo halo_of(const TypeScale& type, const Palette& palette);
 
 // Does what copy_part() does, with a halo under the words. Around each pixel the halo is as strong as the
 // pixel, and it ends at its reach. The halo of words beside the part reaches into the part too.
-void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int y, const Halo& halo,
+void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int y, const WordHalo& halo,
                        Picture& picture);
 
 // A box around words, in pixels from the corner of the gutter, the strip of the picture kept for words.
