@@ -269,7 +269,7 @@ void carry_laws(const CarryRequest& request, const Plan&, CarriedScene& carried)
                     "loses its latch where a pair changes its rank; use --ranks 1");
     if (contact.arms == LeverArms::radius) {
         contact.arms = LeverArms::contact_plane;
-        add_change(carried, carried.scene.where("contact.lever_arms"),
+        add_change(carried, carried.scene.where("contact.arms"),
                    "forces act at the contact plane, not at the full radius", "both engines do so");
     }
     Run& run = carried.scene.run;

@@ -1,6 +1,7 @@
 // What is carried to another engine, what is changed by name, and what is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -72,6 +73,18 @@ TEST(Carry, KeepsStiffnessAndRestitutionOfALawThatIsChanged) {
     EXPECT_NEAR(pair.restitution, 0.8, 1e-9);
     EXPECT_EQ(pair.tangential_damping, 0);
     EXPECT_EQ(carried.surfaces[0].with[0].effective_mass, 2 * pair.effective_mass);
+}
+
+TEST(Carry, ChangedArmsAreToldAtTheirLine) {
+    CarryRequest request;
+    request.accept_law = true;
+    const CarriedScene carried = carried_of("[contact]\nfriction = 0.3\narms = \"radius\"\n" + head, request);
+    const auto is_of_arms = [](const auto& change) {
+        return change.what.find("not at the full radius") != std::string::npos;
+    };
+    const auto change = std::find_if(carried.changes.begin(), carried.changes.end(), is_of_arms);
+    ASSERT_NE(change, carried.changes.end());
+    EXPECT_THAT(change->where, HasSubstr("s.toml:3:"));
 }
 
 TEST(Carry, TellsAllRefusalsAtOnce) {
