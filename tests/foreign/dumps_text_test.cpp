@@ -170,6 +170,30 @@ TEST(TextDump, PackedFramesInAnyOrder) {
 }
 
 // The file is larger than a reader's buffer of lines, and each row has its own formula.
+// Bytes that this process has asked the system for so far (man 5 proc).
+std::int64_t bytes_read() {
+    std::ifstream counters("/proc/self/io");
+    std::string name;
+    std::int64_t value = 0;
+    counters >> name >> value;
+    EXPECT_EQ(name, "rchar:");
+    return value;
+}
+
+// The reader's buffer holds more than two of these frames, so reading each frame anew takes over twice the
+// file.
+TEST(TextDump, FramesInOrderAreReadOnce) {
+    const DumpFolder folder;
+    std::string rows;
+    for (int i = 1; i <= 6000; ++i) rows += std::to_string(i) + " 1 0.0012345 0.0023456 0.0034567\n";
+    std::string text;
+    for (int k = 0; k < 30; ++k) text += frame_text(std::to_string(10 * k), "6000", "id type x y z", rows);
+    const std::unique_ptr<RawFile> dump = open_text(folder.write("a.dump", text));
+    const std::int64_t before = bytes_read();
+    for (std::size_t k = 0; k < 30; ++k) ASSERT_EQ(column_of(dump->read(k).grains, "id").size(), 6000u);
+    EXPECT_LT(static_cast<double>(bytes_read() - before), 1.1 * static_cast<double>(text.size()));
+}
+
 TEST(TextDump, ManyRows) {
     constexpr int count = 60000;
     const DumpFolder folder;

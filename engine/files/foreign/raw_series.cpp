@@ -60,7 +60,7 @@ RawSeries::RawSeries(std::vector<fs::path> files) : files_(std::move(files)) {
 RawFile& RawSeries::opened(std::size_t file) const {
     if (open_ && open_file_ == file) return *open_;
     const fs::path& path = files_[file];
-    const RawFormat* format = raw_format_of(path);
+    const RawFormat* format = file == 0 ? format_ : raw_format_of(path);
     if (format == nullptr || std::string(format->name) != format_->name)
         throw UserError(fmt::format("{}: is {}, but {} is {}; files of one run have one format",
                                     path.string(), format ? format->about : "in no format that is read",

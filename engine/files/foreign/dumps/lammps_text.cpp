@@ -102,14 +102,14 @@ class LammpsText : public RawFile {
 
     RawFrame read(std::size_t index) const override {
         const DumpFrame& frame = index_.frames.at(index);
-        // A place in a packed file can only be reached through all bytes before it. The file therefore stays
-        // open for the next frame. It is closed after its last frame, so that a series of many files does not
-        // keep all of them open.
+        // The reader stays for the next frame, because it has mostly read some of it already, and because a
+        // place in a packed file can only be reached through all bytes before it. It is closed after the last
+        // frame, so that a series of many files does not keep all of them open.
         const std::lock_guard lock(reading_);
         std::unique_ptr<LineReader> lines = std::move(kept_);
         if (!lines) lines = std::make_unique<LineReader>(file_);
         RawFrame read = read_frame(*lines, frame);
-        if (packing_ != Packing::none && index + 1 < index_.frames.size()) kept_ = std::move(lines);
+        if (index + 1 < index_.frames.size()) kept_ = std::move(lines);
         return read;
     }
 
