@@ -78,8 +78,8 @@ installed() {  # $@: packages. Prints those that are installed.
     { dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true; } | sed -n 's/^installed //p'
 }
 
-offered() {  # $@: packages. Prints those that apt can install.
-    { apt-cache policy "$@" 2>/dev/null || true; } |
+offered() {  # $@: packages. Prints those that apt can install. (apt translates what it prints.)
+    { LC_ALL=C LANGUAGE=C apt-cache policy "$@" 2>/dev/null || true; } |
         awk '/^[^ ]/ { name = $1; sub(/(:[a-z0-9]+)?:$/, "", name) } $1 == "Candidate:" && $2 != "(none)" { print name }'
 }
 

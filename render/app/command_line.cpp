@@ -33,7 +33,8 @@ void check_verb(const Verbs& verbs, const std::string& word) {
     std::vector<std::string> names;
     for (const auto& verb : verbs) names.push_back(verb->name());
     if (word[0] == '-' || std::find(names.begin(), names.end(), word) != names.end()) return;
-    const std::optional<std::string> meant = nearest_name(word, names);
+    std::optional<std::string> meant = nearest_name(word, names);
+    if (word.ends_with(".toml")) meant = "movie " + excerpt(word);
     throw UserError(
         fmt::format("{}; {}there are {}; see {} --help",
                     word.empty() ? "no command" : fmt::format("unknown command '{}'", excerpt(word)),
@@ -177,7 +178,7 @@ std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
     app->get_formatter()->column_width(28);
     keep_lines(*app->get_formatter());
     app->footer(
-        as_called("Begin with:  grainreel movie scenes/wedge_segregation.toml\n"
+        as_called("Begin with:  grainreel movie wedge_segregation\n"
                   "More about a verb:  grainreel movie --help"));
     for (const auto& verb : verbs) add_verb(*app, *verb);
     return app;

@@ -46,6 +46,15 @@ double alike(const Picture& a, const Picture& b, int least) {
     return static_cast<double>(same) / (0.25 * static_cast<double>(a.rgba.size()));
 }
 
+// OSMesa crashed where the environment named a driver of another kind, as it does in WSL.
+TEST(Context, DriversThatTheEnvironmentNamesDoNotMatter) {
+    setenv("GALLIUM_DRIVER", "d3d12", 1);
+    setenv("MESA_GL_VERSION_OVERRIDE", "3.0", 1);
+    setenv("MESA_GLSL_VERSION_OVERRIDE", "110", 1);
+    Renderer renderer(wedge(320, 180), 1, Provider::automatic);
+    EXPECT_THAT(renderer.gl_description(), testing::HasSubstr("llvmpipe"));
+}
+
 TEST(Context, EglDrawsWhatOSMesaDraws) {
     for (const auto shape : {Container::Shape::wedge, Container::Shape::cylinder}) {
         FilmedScene scene = wedge(960, 540);

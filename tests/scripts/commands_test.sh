@@ -17,7 +17,8 @@ stub apt-get 'echo "apt-get $*" >>"$CALLS"; [[ $* != *install* || -z ${APT_FAILS
 stub dpkg-query 'lacks=0
 for p; do if [[ " ${ABSENT-} " == *" $p "* ]]; then lacks=1; elif [[ $p != -* && $p != \$* ]]; then echo "installed $p"; fi; done
 exit $lacks'
-stub apt-cache 'for p in "${@:2}"; do if [[ " ${NOWHERE-} " != *" $p "* ]]; then printf "%s:\n  Candidate: 1\n" "$p"; fi; done'
+stub apt-cache 'if [[ $LC_ALL == C && $LANGUAGE == C ]]; then word=Candidate; else word=Installationskandidat; fi
+for p in "${@:2}"; do if [[ " ${NOWHERE-} " != *" $p "* ]]; then printf "%s:\n  $word: 1\n" "$p"; fi; done'
 stub sudo 'exit 1'
 stub cmake 'echo "cmake $*" >>"$CALLS"; mkdir -p build/release; touch build/release/build.ninja
 { echo "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD"; for o; do echo "${o#-D}" | sed "s/=/:BOOL=/"; done; } >build/release/CMakeCache.txt'

@@ -59,12 +59,12 @@ add_custom_target(archive_tree
   COMMAND ${CMAKE_COMMAND} -E env GRAINREEL_BUILT=1 ${archive_command} --ffmpeg ${archive_ffmpeg} ${archive_tree}
   DEPENDS ${archive_waits} COMMENT "Gathering what an archive holds" VERBATIM)
 
-# The starter comes last: where unpacking was broken off it is not there yet.
+# The starter comes first: where unpacking was broken off it names what is missing.
 set(archive_file ${CMAKE_BINARY_DIR}/${archive_name}.tar.xz)
 add_custom_target(archive
   COMMAND ${CMAKE_COMMAND} -E env "XZ_OPT=-T0 -${GRAINREEL_ARCHIVE_LEVEL}"
           tar --create --xz --sort=name --owner=0 --group=0 --numeric-owner --file ${archive_file}.half
-          --directory ${archive_made} ${archive_name}/README ${archive_name}/lib ${archive_name}/share ${archive_name}/bin
+          --directory ${archive_made} ${archive_name}/README ${archive_name}/bin ${archive_name}/share ${archive_name}/lib
   COMMAND ${CMAKE_COMMAND} -E rename ${archive_file}.half ${archive_file}
   DEPENDS archive_tree COMMENT "Packing ${archive_name}.tar.xz" VERBATIM)
 

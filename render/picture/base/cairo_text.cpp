@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include "engine/base/own_files.hpp"
@@ -55,15 +56,24 @@ Config own_fonts() {
     return nullptr;
 }
 
+// Pango reads all fonts of the system whenever it makes a map, unless the process has a configuration of its
+// own. That takes time, and it complains where no folder for caches can be written.
+void use_as_configuration_of_the_process(FcConfig* config) {
+    static std::once_flag once;
+    std::call_once(once, [config] { FcConfigSetCurrent(config); });
+}
+
 // Each thread has one context, since threads cannot share font maps, and making one costs more than writing a
 // word. own: the context has only the two font files, so that words do not depend on what else is installed;
 // otherwise it has all fonts of the system.
 PangoContext* make_context(bool own) {
     need_addresses(kAddressesOfFonts);
+    Config config = own_fonts();
+    if (config) use_as_configuration_of_the_process(config.get());
+    if (!own || !config) config.reset(FcInitLoadConfigAndFonts());
     const std::unique_ptr<PangoFontMap, Unref> map(
         pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT));
-    if (const Config config = own ? own_fonts() : nullptr)
-        pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(map.get()), config.get());
+    if (config) pango_fc_font_map_set_config(PANGO_FC_FONT_MAP(map.get()), config.get());
     PangoContext* made = pango_font_map_create_context(map.get());
     const std::unique_ptr<cairo_font_options_t, FreeOptions> options(cairo_font_options_create());
     cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);

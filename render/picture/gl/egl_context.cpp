@@ -183,6 +183,7 @@ class EglContext final : public Context {
 
 std::unique_ptr<Context> make_egl_context(int raster_threads, const std::vector<EglPlatform>& order) {
     set_raster_threads(raster_threads);
+    if (order == std::vector<EglPlatform>{EglPlatform::software}) choose_software_driver();
     std::string why = "there is neither a device nor a surfaceless platform";
     for (const EglPlatform platform : order)
         for (const EGLDisplay display : displays_of(platform)) {

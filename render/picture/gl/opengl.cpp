@@ -59,6 +59,14 @@ void set_raster_threads(int raster_threads) {
     setenv("LP_NUM_THREADS", threads.c_str(), 1);
 }
 
+void choose_software_driver() {
+    const char* asked = std::getenv("GALLIUM_DRIVER");
+    const std::string driver = asked ? asked : "";
+    if (driver != "llvmpipe" && driver != "softpipe") setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+    unsetenv("MESA_GL_VERSION_OVERRIDE");
+    unsetenv("MESA_GLSL_VERSION_OVERRIDE");
+}
+
 std::unique_ptr<Context> make_context(Provider provider, int raster_threads) {
     need_addresses(kAddressesOfContext);
     if (provider == Provider::egl) return make_egl_context(raster_threads);
@@ -168,6 +176,7 @@ class OSMesaContext final : public Context {
 
 std::unique_ptr<Context> make_osmesa_context(int raster_threads) {
     set_raster_threads(raster_threads);
+    choose_software_driver();
     return std::make_unique<OSMesaContext>();
 }
 

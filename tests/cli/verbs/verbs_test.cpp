@@ -42,6 +42,7 @@ TEST(Verbs, AreNamedToWhoTypesAnother) {
     for (const auto& verb : all_verbs()) names += (names.empty() ? "" : ", ") + verb->name();
     EXPECT_EQ(ended.err, "error: unknown command 'moovie'; did you mean 'movie'? there are " + names +
                              "; see grainreel --help\n");
+    EXPECT_THAT(run_program({"gravel.toml"}, {}).err, HasSubstr("did you mean 'movie gravel.toml'?"));
     EXPECT_THAT(run_program({"xylophone"}, {}).err,
                 HasSubstr("unknown command 'xylophone'; there are movie"));
 }
