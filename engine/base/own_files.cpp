@@ -18,9 +18,12 @@ std::filesystem::path find_own_files() {
     return unpacked ? folder : std::filesystem::path();
 }
 
+// A file that the user named counts, if it is there: variables outlive what they were set for.
 void set_file(const char* variable, const std::filesystem::path& file) {
-    constexpr int keep = 0;
-    ::setenv(variable, file.c_str(), keep);
+    constexpr int replace = 1;
+    const char* users = std::getenv(variable);
+    std::error_code none;
+    if (users == nullptr || !std::filesystem::exists(users, none)) ::setenv(variable, file.c_str(), replace);
 }
 
 }  // namespace

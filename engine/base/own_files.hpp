@@ -12,7 +12,7 @@ namespace grainreel {
 const std::filesystem::path& own_files();
 
 // Tells udunits and Fontconfig, which read the environment, where the archive's files are. A variable that
-// the user has set stays. Call it before any thread starts.
+// the user has set stays, if its file is there. Call it before any thread starts.
 void use_own_files();
 
 }  // namespace grainreel

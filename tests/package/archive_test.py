@@ -85,6 +85,7 @@ def check_own_files(place, program, tree):
     (share / "units").rename(share / "hidden")
     check("udunits2.xml is missing" in place.run(program, "check", "wedge_segregation", status=2), "units of the system")
     (share / "hidden").rename(share / "units")
+    place.run(program, "check", "wedge_segregation", UDUNITS2_XML_PATH="/nowhere", FONTCONFIG_FILE="/nowhere")
 
     def picture(name):
         place.run(program, "render", "run", "--at", "0.1", "--out", name)
