@@ -135,7 +135,7 @@ const std::vector<ScriptSample>& script_samples() {
         {"Latin", "aß"},     {"Greek", "Γµ"},     {"Cyrillic", "ж"},    {"Arabic", "ع"},
         {"Hebrew", "א"},     {"Chinese", "振动"}, {"Japanese", "かカ"}, {"Korean", "한"},
         {"Devanagari", "स"}, {"Bengali", "ব"},    {"Tamil", "த"},       {"Thai", "ก"},
-        {"Georgian", "ა"},   {"Armenian", "ա"},   {"Ethiopic", "አ"},    {"emoji", "😀"}};
+        {"Georgian", "ა"},   {"Armenian", "ա"},   {"Ethiopic", "አ"},    {"emoji", "🎬"}};
     return samples;
 }
 
