@@ -137,6 +137,14 @@ Layout make_wrapped(const std::string& text, const TextStyle& style, double wrap
     return make_layout(text, fitting, wrap, lines);
 }
 
+// Letters are filled outlines, because Cairo before 1.18 moves letters to whole pixels and later ones do not:
+// so a picture has the same words with each of them. Fonts of the system may have letters that are pictures,
+// without an outline.
+bool has_outlines(PangoLayout* layout) {
+    static const bool fonts_are_there = own_fonts() != nullptr;
+    return fonts_are_there && pango_layout_get_context(layout) == own_context();
+}
+
 TextSize size_of(PangoLayout* layout) {
     PangoRectangle logical;
     pango_layout_get_extents(layout, nullptr, &logical);
@@ -165,16 +173,13 @@ TextSize measure_text(const std::string& text, const TextStyle& style, double wr
     return size_of(make_wrapped(text, style, wrap, lines).get());
 }
 
-// Letters are filled outlines, because Cairo before 1.18 moves letters to whole pixels and later ones do not:
-// so a picture has the same words with each of them. Fonts of the system may have letters that are pictures,
-// without an outline.
 TextSize draw_text(cairo_t* on, double x, double y, const std::string& text, const TextStyle& style,
                    const Colour& colour, double wrap, int lines) {
     const Layout layout = make_wrapped(text, style, wrap, lines);
     set_colour(on, colour);
     cairo_new_path(on);
     cairo_move_to(on, x, y);
-    if (pango_layout_get_context(layout.get()) == own_context()) {
+    if (has_outlines(layout.get())) {
         pango_cairo_layout_path(on, layout.get());
         cairo_fill(on);
     } else {

@@ -146,7 +146,7 @@ void set_raster_threads(int raster_threads);
 
 // Takes back what the environment says of Mesa's drivers, before a context that draws in software is made:
 // OSMesa crashes where GALLIUM_DRIVER names a driver that it lacks (d3d12, which WSL uses), or where an
-// override asks for an older OpenGL. softpipe stays, which draws the same without LLVM.
+// override asks for an older OpenGL. softpipe stays, which needs no LLVM.
 void choose_software_driver();
 
 }  // namespace grainreel::gl
