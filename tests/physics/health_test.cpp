@@ -34,7 +34,7 @@ class HealthCheck : public testing::Test {
         return "";
     }
 
-    SmallWorld w = make_world(walton_braun_pair(0.9, 0.3), 1e-6);
+    HandMadeBed w = make_world(walton_braun_pair(0.9, 0.3), 1e-6);
     HealthLimits limits;
 };
 

@@ -12,7 +12,7 @@
 
 namespace grainreel {
 
-struct SmallWorld {
+struct HandMadeBed {
     Plan plan;
     Surroundings around;
     Grains grains;
@@ -84,9 +84,9 @@ inline double of_rounding(double in_doubles, double in_floats) {
 }
 
 // A world of one species with the same contact everywhere and nothing around it.
-inline SmallWorld make_world(PairPlan pair, double step, NormalForce normal = NormalForce::walton_braun,
-                             TangentialLaw tangential = TangentialLaw::incremental_slip) {
-    SmallWorld w;
+inline HandMadeBed make_world(PairPlan pair, double step, NormalForce normal = NormalForce::walton_braun,
+                              TangentialLaw tangential = TangentialLaw::incremental_slip) {
+    HandMadeBed w;
     pair.model.normal = normal;
     pair.model.tangential = tangential;
     pair.model.precision = tested_precision();

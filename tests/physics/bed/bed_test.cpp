@@ -252,7 +252,7 @@ TEST(Contacts, AreThoseOfASearchOverAllPairs) {
 
 TEST(StepLoop, TouchesExactlyThePairsAllPairsSearchFinds) {
     for (const double period : {0.0, 0.02}) {
-        SmallWorld w = make_world(walton_braun_pair(0.9, 0.3), 1e-5);
+        HandMadeBed w = make_world(walton_braun_pair(0.9, 0.3), 1e-5);
         w.around.period = period;
         w.around.skin = 0.0006;
         std::srand(3);
@@ -368,7 +368,7 @@ TEST(Energy, WallWorkIsWhatElasticGrainsGain) {
 TEST(Energy, NeverRisesInAStillContainer) {
     const Scene scene = scene_of();
     const Plan plan = make_plan(scene);
-    SmallWorld w;
+    HandMadeBed w;
     w.plan = plan;
     w.around.faces = container_faces(scene.container, Drive{});
     w.around.gravity = scene.gravity;

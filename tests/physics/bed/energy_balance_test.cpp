@@ -16,7 +16,7 @@ namespace {
 EnergyTerms impact(const PairPlan& pair, NormalForce normal, TangentialLaw tangential, double down,
                    double sideways) {
     const double time = std::numbers::pi * std::sqrt(sphere_mass() / kStiffness);
-    SmallWorld w = make_world(pair, time / 4000, normal, tangential);
+    HandMadeBed w = make_world(pair, time / 4000, normal, tangential);
     w.around.faces = {floor_face()};
     w.grains.add(0, 0, Vec3(0, 0, kRadius + 0.4 * down * w.plan.clock.step), kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(sideways, 0, -down);
@@ -78,7 +78,7 @@ struct Slide {
     NormalForce normal;
     TangentialLaw tangential;
 };
-SmallWorld sliding_ball(const Slide& laws, double e, double mu, double speed) {
+HandMadeBed sliding_ball(const Slide& laws, double e, double mu, double speed) {
     const double gravity = 9.81, weight = sphere_mass() * gravity;
     const bool hertz = laws.normal == NormalForce::hertz;
     const bool dashpot = hertz || laws.normal == NormalForce::spring_dashpot;
@@ -93,7 +93,7 @@ SmallWorld sliding_ball(const Slide& laws, double e, double mu, double speed) {
         pair.normal_damping = 2 * std::sqrt(kStiffness / sphere_mass()) * linear_damping(e, false);
         pair.tangential_damping = pair.normal_damping / 2;
     }
-    SmallWorld w = make_world(pair, step, laws.normal, laws.tangential);
+    HandMadeBed w = make_world(pair, step, laws.normal, laws.tangential);
     w.around.faces = {floor_face()};
     w.around.gravity = {0, 0, -gravity};
     w.grains.add(0, 0, Vec3(0, 0, kRadius - sink), kRadius, kDensity);
@@ -113,7 +113,7 @@ TEST(EnergyTerms, ASlidingSpringHoldsNoMoreThanItsCapGivesBack) {
                              Slide{NormalForce::walton_braun, TangentialLaw::incremental_slip},
                              Slide{NormalForce::walton_braun_corrected, TangentialLaw::linear_spring}}) {
         for (const double e : {0.1, 0.3, 0.5, 0.7, 0.9}) {
-            SmallWorld w = sliding_ball(laws, e, mu, speed);
+            HandMadeBed w = sliding_ball(laws, e, mu, speed);
             const double kinetic = 0.5 * sphere_mass() * speed * speed, start = w.energy();
             double lowest = start, rise = 0, most = 0;
             while (w.step < 20000) {
@@ -163,11 +163,11 @@ duration = "1 s"
 
 // A bed of the scene with steps of `share` times the standard one. It falls for `fall` seconds with a drag of
 // 20 1/s. vibrated: whether the walls start to move at step 0.
-SmallWorld bed(std::vector<std::string> sets, double share, double fall, bool vibrated) {
+HandMadeBed bed(std::vector<std::string> sets, double share, double fall, bool vibrated) {
     const double step = make_plan(read_scene_text(kBed, "bed.toml", with_tested_precision(sets))).clock.step;
     sets.push_back(fmt::format("run.step={:.17g}", share * step));
     const Scene scene = read_scene_text(kBed, "bed.toml", with_tested_precision(sets));
-    SmallWorld w;
+    HandMadeBed w;
     w.plan = make_plan(scene);
     w.around.faces = container_faces(scene.container, scene.drive);
     if (vibrated) w.around.motion = WallMotion(scene.drive, w.plan.clock);
@@ -187,7 +187,7 @@ struct Balanced {
     double residual = 0;  // largest at any step, divided by the wall work at the end
 };
 Balanced vibrate(const std::vector<std::string>& sets, double share) {
-    SmallWorld w = bed(sets, share, 0.1, true);
+    HandMadeBed w = bed(sets, share, 0.1, true);
     EnergyBalance balance(w.around, w.grains, *w.loop, 0, w.plan.clock.step);
     Balanced result;
     while (w.step < 4 * w.plan.clock.steps_per_period) {
@@ -237,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(
 // The work of the walls in the step loop is force times velocity, friction included, summed by the
 // trapezoidal rule.
 TEST(EnergyBalance, WallWorkIsForceTimesTheWallsVelocity) {
-    SmallWorld w = bed({"run.contact_corrections=false", "drive.direction=[0.6, 0, 0.8]"}, 1, 0.1, true);
+    HandMadeBed w = bed({"run.contact_corrections=false", "drive.direction=[0.6, 0, 0.8]"}, 1, 0.1, true);
     EnergyBalance balance(w.around, w.grains, *w.loop, 0, w.plan.clock.step);
     double work = 0, before = 0;
     const auto power = [&] {
@@ -273,7 +273,7 @@ TEST(EnergyBalance, DashpotsErrByWhatOtherContactsDo) {
             const double omega = natural * std::sqrt(walls);
             PairPlan pair = walton_braun_pair(1, 0);
             pair.normal_damping = 2 * natural * beta;
-            SmallWorld w = make_world(pair, phase / omega, NormalForce::spring_dashpot, TangentialLaw::none);
+            HandMadeBed w = make_world(pair, phase / omega, NormalForce::spring_dashpot, TangentialLaw::none);
             w.around.faces = {floor_face()};
             if (walls == 2) w.around.faces.push_back(ceiling_face(2 * (kRadius - sink)));
             if (walls == 1) w.around.gravity = {0, 0, -sink * natural * natural};
@@ -294,7 +294,7 @@ TEST(EnergyBalance, DashpotsErrByWhatOtherContactsDo) {
 
 // The largest rise of the recoverable energy, divided by what a bed in a still container loses in 0.1 s.
 double rise_at_rest(const std::vector<std::string>& sets, double share) {
-    SmallWorld w = bed(sets, share, 0, false);
+    HandMadeBed w = bed(sets, share, 0, false);
     const double start = w.energy();
     double lowest = start, rise = 0;
     while (static_cast<double>(w.step) * w.plan.clock.step < 0.1) {

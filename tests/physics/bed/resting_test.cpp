@@ -9,9 +9,9 @@ namespace {
 constexpr double kGravity = 9.81;
 
 // A ball in equilibrium on the loading branch of the floor's spring.
-SmallWorld ball_on_floor(double mu, const Vec3& gravity,
-                         TangentialLaw law = TangentialLaw::incremental_slip) {
-    SmallWorld w = make_world(walton_braun_pair(0.9, mu), 2e-6, NormalForce::walton_braun, law);
+HandMadeBed ball_on_floor(double mu, const Vec3& gravity,
+                          TangentialLaw law = TangentialLaw::incremental_slip) {
+    HandMadeBed w = make_world(walton_braun_pair(0.9, mu), 2e-6, NormalForce::walton_braun, law);
     w.around.faces = {floor_face()};
     w.around.gravity = gravity;
     const double sink = sphere_mass() * -gravity.z() / kStiffness;
@@ -21,7 +21,7 @@ SmallWorld ball_on_floor(double mu, const Vec3& gravity,
 
 TEST(OnTheFloor, SlidingTurnsToRolling) {
     const double mu = 0.3, u0 = 0.1;
-    SmallWorld w = ball_on_floor(mu, {0, 0, -kGravity}, TangentialLaw::linear_spring);
+    HandMadeBed w = ball_on_floor(mu, {0, 0, -kGravity}, TangentialLaw::linear_spring);
     w.grains.motion[0].velocity = Vec3(u0, 0, 0);
     w.start();
     const double time = 2 * u0 / (7 * mu * kGravity);
@@ -36,7 +36,7 @@ TEST(OnTheFloor, SlidingTurnsToRolling) {
 
 TEST(OnTheFloor, RollsDownAnInclineAtFiveSevenths) {
     const double mu = 0.3, angle = std::atan(0.5 * 3.5 * mu);
-    SmallWorld w = ball_on_floor(mu, kGravity * Vec3(std::sin(angle), 0, -std::cos(angle)));
+    HandMadeBed w = ball_on_floor(mu, kGravity * Vec3(std::sin(angle), 0, -std::cos(angle)));
     w.start();
     const std::int64_t steps = 50000;
     w.run(steps);
@@ -46,7 +46,7 @@ TEST(OnTheFloor, RollsDownAnInclineAtFiveSevenths) {
 
 TEST(OnTheFloor, SlidesDownAnInclineThatIsTooSteepToRoll) {
     const double mu = 0.1, angle = std::atan(2 * 3.5 * mu);
-    SmallWorld w = ball_on_floor(mu, kGravity * Vec3(std::sin(angle), 0, -std::cos(angle)));
+    HandMadeBed w = ball_on_floor(mu, kGravity * Vec3(std::sin(angle), 0, -std::cos(angle)));
     w.start();
     const std::int64_t steps = 50000;
     w.run(steps);
@@ -56,7 +56,7 @@ TEST(OnTheFloor, SlidesDownAnInclineThatIsTooSteepToRoll) {
 }
 
 TEST(OnTheFloor, RollingWithoutSlipMeetsNoFriction) {
-    SmallWorld w = ball_on_floor(0.5, {0, 0, -kGravity});
+    HandMadeBed w = ball_on_floor(0.5, {0, 0, -kGravity});
     const double arm = w.grains.place[0].position.z();
     w.grains.motion[0].velocity = Vec3(0.1, 0, 0);
     w.grains.motion[0].spin = Vec3(0, 0.1 / arm, 0);
@@ -72,7 +72,7 @@ TEST(OnTheFloor, SpringDashpotBallRestsAtItsWeightOverStiffness) {
     PairPlan pair = walton_braun_pair(0.7, 0);
     pair.unloading_stiffness = pair.loading_stiffness;
     pair.normal_damping = 0.2 * 2 * std::sqrt(kStiffness / sphere_mass());
-    SmallWorld w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::none);
+    HandMadeBed w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::none);
     w.around.faces = {floor_face()};
     w.around.gravity = {0, 0, -kGravity};
     w.grains.add(0, 0, Vec3(0, 0, 1.1 * kRadius), kRadius, kDensity);
@@ -85,7 +85,7 @@ TEST(OnTheFloor, SpringDashpotBallRestsAtItsWeightOverStiffness) {
 // A Walton-Braun ball that is released when it touches swings for ever between 2(1 - e^2) mg/K1 and 2 mg/K1.
 TEST(OnTheFloor, WaltonBraunBallSwingsOnItsLatchedBranch) {
     const double e = 0.7;
-    SmallWorld w = make_world(walton_braun_pair(e, 0), 1e-7, NormalForce::walton_braun, TangentialLaw::none);
+    HandMadeBed w = make_world(walton_braun_pair(e, 0), 1e-7, NormalForce::walton_braun, TangentialLaw::none);
     w.around.faces = {floor_face()};
     w.around.gravity = {0, 0, -kGravity};
     w.grains.add(0, 0, Vec3(0, 0, kRadius), kRadius, kDensity);

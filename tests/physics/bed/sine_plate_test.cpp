@@ -15,7 +15,7 @@ using std::numbers::pi;
 constexpr double kGravity = 9.81, kFrequency = 20;
 
 // A world with a step that divides the period and is at most `longest` seconds.
-SmallWorld plate(double g_level, double phase, double ramp, double longest, NormalForce law, PairPlan pair) {
+HandMadeBed plate(double g_level, double phase, double ramp, double longest, NormalForce law, PairPlan pair) {
     Drive drive;
     drive.present = true;
     drive.frequency = kFrequency;
@@ -23,7 +23,7 @@ SmallWorld plate(double g_level, double phase, double ramp, double longest, Norm
     drive.phase = phase;
     drive.ramp = ramp;
     const auto steps = static_cast<std::int64_t>(std::ceil(1 / (kFrequency * longest)));
-    SmallWorld w = make_world(pair, 1 / (kFrequency * static_cast<double>(steps)), law, TangentialLaw::none);
+    HandMadeBed w = make_world(pair, 1 / (kFrequency * static_cast<double>(steps)), law, TangentialLaw::none);
     w.plan.clock.steps_per_period = steps;
     w.plan.clock.initial_phase = phase;
     w.around.faces = {floor_face()};
@@ -38,7 +38,7 @@ TEST(SinePlate, BallLeavesAtOneG) {
     for (const double g_level : {0.98, 1.02}) {
         PairPlan pair = walton_braun_pair(1, 0);
         pair.normal_damping = 0.2 * std::sqrt(kStiffness / sphere_mass());
-        SmallWorld w = plate(g_level, 0, 3, 5e-6, NormalForce::spring_dashpot, pair);
+        HandMadeBed w = plate(g_level, 0, 3, 5e-6, NormalForce::spring_dashpot, pair);
         w.grains.add(0, 0, Vec3(0, 0, kRadius - sphere_mass() * kGravity / kStiffness), kRadius, kDensity);
         w.start();
         bool left = false;
@@ -54,7 +54,7 @@ TEST(SinePlate, BallLeavesAtOneG) {
 // that brings it back after n periods, if the plate is then as high.
 std::vector<double> flights(double g_level, double e, int n, double phase, int count) {
     const double contact = pi * std::sqrt(sphere_mass() / kStiffness);
-    SmallWorld w =
+    HandMadeBed w =
         plate(g_level, phase, 0, contact / 30, NormalForce::walton_braun_corrected, walton_braun_pair(e, 0));
     w.grains.add(0, 0, Vec3(0, 0, kRadius), kRadius, kDensity);
     w.grains.motion[0].velocity.z() = 0.5 * kGravity * n / kFrequency;

@@ -15,7 +15,7 @@ struct Rebound {
     double restitution, contact_time, largest_overlap, largest_force;
 };
 Rebound rebound(const PairPlan& pair, NormalForce law, double v, double step) {
-    SmallWorld w = make_world(pair, step, law, TangentialLaw::none);
+    HandMadeBed w = make_world(pair, step, law, TangentialLaw::none);
     const double apart = kRadius + 0.25 * v * step;
     w.grains.add(0, 0, Vec3(-apart, 0, 0), kRadius, kDensity);
     w.grains.add(1, 0, Vec3(apart, 0, 0), kRadius, kDensity);
@@ -75,7 +75,7 @@ TEST(Dashpot, FallingBallFollowsTheDampedOscillation) {
     const double slower = natural * std::sqrt(1 - beta * beta), sink = gravity / (natural * natural);
     PairPlan pair = walton_braun_pair(1, 0);
     pair.normal_damping = 2 * natural * beta;
-    SmallWorld w = make_world(pair, fall / 20000, NormalForce::spring_dashpot, TangentialLaw::none);
+    HandMadeBed w = make_world(pair, fall / 20000, NormalForce::spring_dashpot, TangentialLaw::none);
     w.around.faces = {floor_face()};
     w.around.gravity = {0, 0, -gravity};
     w.grains.add(0, 0, Vec3(0, 0, height), kRadius, kDensity);
@@ -100,7 +100,7 @@ TEST(Dashpot, IsOfSecondOrderInTheStep) {
     const auto error = [&](int steps) {
         PairPlan pair = walton_braun_pair(1, 0);
         pair.normal_damping = 2 * natural * beta;
-        SmallWorld w = make_world(pair, period / steps, NormalForce::spring_dashpot, TangentialLaw::none);
+        HandMadeBed w = make_world(pair, period / steps, NormalForce::spring_dashpot, TangentialLaw::none);
         w.around.faces = {floor_face()};
         w.around.gravity = {0, 0, -gravity};
         w.grains.add(0, 0, Vec3(0, 0, kRadius - sink), kRadius, kDensity);
@@ -164,7 +164,7 @@ TEST(Hertz, RestitutionIsTheAskedOneAtAnySpeed) {
 // A ball is pressed on the floor and moved aside by s: T = K_t s with K_t = ratio 2 E* sqrt(R a).
 TEST(Mindlin, StiffnessFollowsTheContactRadius) {
     PairPlan pair = hertz_pair(1, 10, false);
-    SmallWorld w = make_world(pair, 1e-9, NormalForce::hertz, TangentialLaw::mindlin);
+    HandMadeBed w = make_world(pair, 1e-9, NormalForce::hertz, TangentialLaw::mindlin);
     w.around.faces = {floor_face()};
     const double overlap = 1e-5, v = 1e-3;
     w.grains.add(0, 0, Vec3(0, 0, kRadius - overlap), kRadius, kDensity);
@@ -183,7 +183,7 @@ TEST(Mindlin, SlidingContactTakesCoulombsShare) {
     const double mu = 0.1, vn = 0.05, vt = 20 * mu * vn, e = 0.8;
     const double k = 4.0 / 3 * 1e8 * std::sqrt(kRadius);
     const double time = 2.9432 * std::pow(1.25 * sphere_mass() * vn * vn / k, 0.4) / vn;
-    SmallWorld w =
+    HandMadeBed w =
         make_world(hertz_pair(e, mu, false), time / 2000, NormalForce::hertz, TangentialLaw::mindlin);
     w.around.faces = {floor_face()};
     w.grains.add(0, 0, Vec3(0, 0, kRadius + 1e-9), kRadius, kDensity);
@@ -197,7 +197,7 @@ TEST(Mindlin, SlidingContactTakesCoulombsShare) {
 // The contact is loaded with slip and then unloaded without it. The force shrinks with the contact's radius,
 // so the stored energy T^2 / (2 K_t) falls; a force that kept its size would give energy without work.
 TEST(Mindlin, UnloadingTheContactMakesNoEnergy) {
-    SmallWorld w = make_world(hertz_pair(1, 10, false), 1e-8, NormalForce::hertz, TangentialLaw::mindlin);
+    HandMadeBed w = make_world(hertz_pair(1, 10, false), 1e-8, NormalForce::hertz, TangentialLaw::mindlin);
     w.around.faces = {floor_face()};
     w.grains.add(0, 0, Vec3(0, 0, kRadius - 1e-9), kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(0.02, 0, -0.05);
@@ -235,7 +235,7 @@ TEST(KindsOfContact, EachHasItsLawAndItsNumbers) {
     two.model = {NormalForce::spring_dashpot, TangentialLaw::none, false};
     two.normal_damping = 2 * natural * linear_damping(0.75, false);
     wall.model = mixed.model;
-    SmallWorld w = make_world(one, 5e-8);
+    HandMadeBed w = make_world(one, 5e-8);
     w.plan.grain = {one, mixed, mixed, two};
     w.plan.wall = {wall, wall};
     w.around.faces = {floor_face()};
@@ -265,7 +265,7 @@ TEST(KindsOfContact, OfPairsDoNotShowAtWalls) {
         PairPlan pair = walton_braun_pair(0.8, 0.5);
         pair.model.rolls = true;
         pair.rolling_friction = 0.05;
-        SmallWorld w = make_world(pair, 2e-6);
+        HandMadeBed w = make_world(pair, 2e-6);
         w.plan.grain.assign(4, w.plan.grain[0]);
         w.plan.grain[3].rolling_friction = 0.4;
         w.plan.wall.assign(2, w.plan.wall[0]);
@@ -285,7 +285,7 @@ TEST(KindsOfContact, OfPairsDoNotShowAtWalls) {
 
 TEST(KindsOfContact, EqualOnesAreOneForObserversToo) {
     PairPlan pair = walton_braun_pair(1, 0);
-    SmallWorld w = make_world(pair, 1e-9, NormalForce::spring_dashpot, TangentialLaw::none);
+    HandMadeBed w = make_world(pair, 1e-9, NormalForce::spring_dashpot, TangentialLaw::none);
     w.plan.grain.assign(4, w.plan.grain[0]);
     w.plan.wall.assign(2, w.plan.wall[0]);
     const double overlap = 1e-5;
@@ -302,7 +302,7 @@ TEST(Rolling, SlowsABallDown) {
     PairPlan pair = walton_braun_pair(0.9, 0.8);
     pair.model.rolls = true;
     pair.rolling_friction = rolling;
-    SmallWorld w = make_world(pair, 1e-6);
+    HandMadeBed w = make_world(pair, 1e-6);
     w.around.faces = {floor_face()};
     w.around.gravity = {0, 0, -gravity};
     const double arm = kRadius - sphere_mass() * gravity / kStiffness;
@@ -325,7 +325,7 @@ TEST(Rolling, HoldsABallOnASlopeUpToItsFriction) {
         pair.normal_damping = 0.4 * std::sqrt(kStiffness / sphere_mass());
         pair.tangential_damping = pair.normal_damping;
         pair.rolling_friction = rolling;
-        SmallWorld w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::linear_spring);
+        HandMadeBed w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::linear_spring);
         w.around.faces = {floor_face()};
         w.around.gravity = gravity * Vec3(std::sin(angle), 0, -std::cos(angle));
         w.grains.add(0, 0, Vec3(0, 0, kRadius - sphere_mass() * gravity / kStiffness), kRadius, kDensity);
@@ -342,7 +342,7 @@ TEST(Rolling, KeepsAngularMomentumBetweenGrains) {
     PairPlan pair = walton_braun_pair(0.7, 0.4);
     pair.model.rolls = true;
     pair.rolling_friction = 0.3;
-    SmallWorld w = make_world(pair, 1e-7);
+    HandMadeBed w = make_world(pair, 1e-7);
     w.grains.add(0, 0, Vec3(-kRadius, 0, 0), kRadius, kDensity);
     w.grains.add(1, 0, Vec3(0.52 * kRadius, 0, 0), 0.5 * kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(0.4, 0, 0);
@@ -365,7 +365,7 @@ TEST(Rolling, KeepsAngularMomentumBetweenGrains) {
 // share e^2 of the energy that came in, all the way.
 TEST(StoredEnergy, IsWhatUnloadingGivesBack) {
     const double e = 0.6, v = 0.3;
-    SmallWorld w = make_world(walton_braun_pair(e, 0), 1e-8);
+    HandMadeBed w = make_world(walton_braun_pair(e, 0), 1e-8);
     w.grains.add(0, 0, Vec3(-kRadius, 0, 0), kRadius, kDensity);
     w.grains.add(1, 0, Vec3(kRadius, 0, 0), kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(v, 0, 0);

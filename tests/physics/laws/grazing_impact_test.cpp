@@ -32,7 +32,7 @@ PairPlan pair_of(double friction) {
 
 // Kinetic energy of a ball after it left the wall, divided by that before.
 double kept(const Laws& laws, double friction, double degrees, double spin, double steps) {
-    SmallWorld w = make_world(pair_of(friction), 0, laws.normal, laws.tangential);
+    HandMadeBed w = make_world(pair_of(friction), 0, laws.normal, laws.tangential);
     w.plan.clock.step = pi * std::sqrt(sphere_mass() / kStiffness) / steps;
     w.around.faces = {floor_face()};
     const double speed = 0.3, down = speed * std::cos(degrees * pi / 180);

@@ -16,7 +16,7 @@ struct Impact {
 
 Impact head_on(const PairPlan& pair, double v, double step, double gap,
                NormalForce law = NormalForce::walton_braun) {
-    SmallWorld w = make_world(pair, step, law, TangentialLaw::none);
+    HandMadeBed w = make_world(pair, step, law, TangentialLaw::none);
     w.grains.add(0, 0, Vec3(-kRadius - gap / 2, 0, 0), kRadius, kDensity);
     w.grains.add(1, 0, Vec3(kRadius + gap / 2, 0, 0), kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(v / 2, 0, 0);
@@ -148,7 +148,7 @@ TEST(NormalImpact, EndsAtTheResidualOverlap) {
 TEST(ObliqueImpact, StickingContactTurnsTheSlipAsTheClosedFormSays) {
     for (const double e : {0.5, 0.9}) {
         for (const double ratio : {0.3, 0.8}) {
-            SmallWorld w = make_world(walton_braun_pair(e, INFINITY, ratio), 0);
+            HandMadeBed w = make_world(walton_braun_pair(e, INFINITY, ratio), 0);
             const double time = std::numbers::pi / 2 * (1 + e) * std::sqrt(sphere_mass() / kStiffness);
             w.plan.clock.step = time / 2000;
             w.around.faces = {floor_face()};
@@ -170,7 +170,7 @@ TEST(ObliqueImpact, StickingContactTurnsTheSlipAsTheClosedFormSays) {
 // The same holds for two spheres head-on, if all of the slip comes from one that spins.
 TEST(ObliqueImpact, SpinOfOneSphereIsSlipForBoth) {
     const double e = 0.8, ratio = 0.5, v = 0.05, vt = 0.05;
-    SmallWorld w = make_world(walton_braun_pair(e, INFINITY, ratio), 0);
+    HandMadeBed w = make_world(walton_braun_pair(e, INFINITY, ratio), 0);
     w.plan.clock.step = std::numbers::pi / 2 * (1 + e) * std::sqrt(sphere_mass() / 2 / kStiffness) / 2000;
     const double apart = kRadius + 0.2 * v * w.plan.clock.step;
     w.grains.add(0, 0, Vec3(-apart, 0, 0), kRadius, kDensity);
@@ -189,8 +189,8 @@ TEST(ObliqueImpact, SpinOfOneSphereIsSlipForBoth) {
 TEST(ObliqueImpact, SlidingContactTakesCoulombsShare) {
     const double e = 0.9, mu = 0.2, vn = 0.05, ratio = 0.8;
     const double vt = 1.5 * vn * mu * std::max({3.5, 1 / ratio, 3.5 * (1 + e) - 1 / (e * ratio)});
-    SmallWorld w = make_world(walton_braun_pair(e, mu, ratio), 0, NormalForce::walton_braun,
-                              TangentialLaw::linear_spring);
+    HandMadeBed w = make_world(walton_braun_pair(e, mu, ratio), 0, NormalForce::walton_braun,
+                               TangentialLaw::linear_spring);
     w.plan.clock.step = std::numbers::pi / 2 * (1 + e) * std::sqrt(sphere_mass() / kStiffness) / 2000;
     w.around.faces = {floor_face()};
     w.grains.add(0, 0, Vec3(0, 0, kRadius + 0.4 * vn * w.plan.clock.step), kRadius, kDensity);
@@ -204,7 +204,7 @@ TEST(ObliqueImpact, SlidingContactTakesCoulombsShare) {
 // Two unequal spheres meet off-centre and spin. Linear and angular momentum are kept to round-off, with arms
 // that reach to the contact plane.
 TEST(ObliqueImpact, KeepsLinearAndAngularMomentum) {
-    SmallWorld w = make_world(walton_braun_pair(0.7, 0.4), 1e-7);
+    HandMadeBed w = make_world(walton_braun_pair(0.7, 0.4), 1e-7);
     w.grains.add(0, 0, Vec3(-1.01 * kRadius, 0.3 * kRadius, 0), kRadius, kDensity);
     w.grains.add(1, 0, Vec3(0.62 * kRadius, 0, 0.2 * kRadius), 0.6 * kRadius, kDensity);
     w.grains.motion[0].velocity = Vec3(0.4, 0, 0.1);
@@ -240,7 +240,7 @@ TEST(NormalImpact, ADashpotByTheRootOfTheMassKeepsTheRestitutionOfAllSizes) {
                 const double first = sphere_mass(one * kRadius), second = sphere_mass(other * kRadius);
                 const double mass = other > 0 ? first * second / (first + second) : first;
                 const double v = 0.1, step = std::numbers::pi * std::sqrt(mass / kStiffness) / 1000;
-                SmallWorld w = make_world(pair, step, NormalForce::spring_dashpot, TangentialLaw::none);
+                HandMadeBed w = make_world(pair, step, NormalForce::spring_dashpot, TangentialLaw::none);
                 w.around.skin = 0.1 * kRadius;
                 w.grains.add(0, 0, Vec3(0, 0, 1.0001 * one * kRadius), one * kRadius, kDensity);
                 w.grains.motion[0].velocity = Vec3(0, 0, -v);

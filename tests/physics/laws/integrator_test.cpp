@@ -17,7 +17,7 @@ double swing_error(Integrator integrator, int steps) {
     PairPlan pair = walton_braun_pair(1, 0);
     const double natural = std::sqrt(kStiffness / sphere_mass()), push = 1e-4;
     const double sink = 10 * push / natural, period = 2 * pi / natural;
-    SmallWorld w = make_world(pair, period / steps, NormalForce::walton_braun, TangentialLaw::none);
+    HandMadeBed w = make_world(pair, period / steps, NormalForce::walton_braun, TangentialLaw::none);
     w.plan.integrator = integrator;
     w.around.faces = {floor_face()};
     w.around.gravity = {0, 0, -sink * kStiffness / sphere_mass()};
@@ -61,7 +61,7 @@ TEST(Integrators, MeetInTimeStepByStep) {
     constexpr double kSpeed = 2, kStep = 2e-6, kGap = 0.5 * kRadius;
     for (const Integrator integrator : kAll) {
         for (const double skin : {0.02 * kRadius, 0.2 * kRadius, 0.6 * kRadius}) {
-            SmallWorld w =
+            HandMadeBed w =
                 make_world(walton_braun_pair(1, 0), kStep, NormalForce::walton_braun, TangentialLaw::none);
             w.plan.integrator = integrator;
             w.around.skin = skin;
@@ -82,7 +82,7 @@ TEST(Integrators, MeetInTimeStepByStep) {
 TEST(Integrators, GoOnWhereTheyStopped) {
     for (const Integrator integrator : kAll) {
         const auto end = [&](int pieces) {
-            SmallWorld w = make_world(walton_braun_pair(0.8, 0.4), 2e-6);
+            HandMadeBed w = make_world(walton_braun_pair(0.8, 0.4), 2e-6);
             w.plan.integrator = integrator;
             w.around.faces = {floor_face()};
             w.around.gravity = {0, 0, -9.81};
@@ -107,7 +107,7 @@ TEST(Integrators, GoOnWhereTheyStopped) {
 TEST(Integrators, AgreeOnAnObliqueImpact) {
     std::vector<Vec3> velocities;
     for (const Integrator integrator : kAll) {
-        SmallWorld w = make_world(walton_braun_pair(0.8, 0.3), 2e-8);
+        HandMadeBed w = make_world(walton_braun_pair(0.8, 0.3), 2e-8);
         w.plan.integrator = integrator;
         w.around.faces = {floor_face()};
         w.grains.add(0, 0, Vec3(0, 0, kRadius + 1e-7), kRadius, kDensity);
@@ -131,7 +131,7 @@ double largest_restitution_error(double e, int steps, NormalForce law, Integrato
     const double step = pi / 2 * (1 + e) * std::sqrt(effective / kStiffness) / steps;
     double largest = 0;
     for (int phase = 0; phase < 200; ++phase) {
-        SmallWorld w = make_world(walton_braun_pair(e, 0), step, law, TangentialLaw::none);
+        HandMadeBed w = make_world(walton_braun_pair(e, 0), step, law, TangentialLaw::none);
         w.plan.integrator = integrator;
         const double apart = kRadius + 0.5 * (phase + 0.5) / 200 * v * step;
         w.grains.add(0, 0, Vec3(-apart, 0, 0), kRadius, kDensity);

@@ -28,7 +28,7 @@ class RandomImpacts {
         const double effective = 1 / (1 / sphere_mass(small) + 1 / sphere_mass(big));
         const double time = pi / 2 * (1 + e) * std::sqrt(effective / kStiffness);
         const double steps = std::max(12.0, 9.5 - 8 * std::log(e));
-        SmallWorld w = make_world(walton_braun_pair(e, mu), time / steps, normal_, tangential_);
+        HandMadeBed w = make_world(walton_braun_pair(e, mu), time / steps, normal_, tangential_);
         const Vec3 k = direction();
         const double gap = 1e-3 * small * share(), speed = 0.3;
         w.grains.add(0, 0, Vec3(0, 0, 0), small, kDensity);
@@ -59,7 +59,7 @@ class RandomImpacts {
         std::normal_distribution<double> normal;
         return Vec3(normal(random_), normal(random_), normal(random_)).normalized();
     }
-    static std::pair<Vec3, Vec3> momenta(const SmallWorld& w) {
+    static std::pair<Vec3, Vec3> momenta(const HandMadeBed& w) {
         Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
         for (std::size_t i = 0; i < w.grains.size(); ++i) {
             const Vec3 p = w.grains.mass(i) * w.grains.motion[i].velocity;

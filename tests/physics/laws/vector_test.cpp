@@ -254,7 +254,7 @@ TEST(VectorLaws, PowersAreThoseOfTheLibrary) {
 // A tumbling heap of two sizes in a corner with a round wall, which has every kind of contact.
 std::vector<double> tumble(TangentialLaw tangential, int threads, double skin = 0.0002,
                            Precision precision = Precision::full, int steps = 300) {
-    SmallWorld w = make_world(walton_braun_pair(0.8, 0.4), 2e-6, NormalForce::walton_braun, tangential);
+    HandMadeBed w = make_world(walton_braun_pair(0.8, 0.4), 2e-6, NormalForce::walton_braun, tangential);
     w.plan.grain[0].model.precision = w.plan.wall[0].model.precision = precision;
     w.team = std::make_unique<Team>(threads);
     Face round;

@@ -192,7 +192,7 @@ TEST(DriveStages, RestIsAtRest) {
 TEST(DriveStages, BallsReboundFromThePlateAsItMoves) {
     const double e = 0.7, speed = 1, stroke = 0.005;
     const Drive drive = drive_of({stage(Kind::vibrate, 0.2, 35, 3), stage(Kind::rest, 0.4, 0, 0)});
-    SmallWorld w = make_world(walton_braun_pair(e, 0), 1e-5, NormalForce::walton_braun, TangentialLaw::none);
+    HandMadeBed w = make_world(walton_braun_pair(e, 0), 1e-5, NormalForce::walton_braun, TangentialLaw::none);
     w.plan.clock = clock_of(drive, 12500);
     w.around.faces = {floor_face()};
     w.around.faces[0].body.driven = true;

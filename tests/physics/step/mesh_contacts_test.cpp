@@ -18,8 +18,8 @@ PairPlan rubbing_pair() {
 }
 
 // A ball that slides and then rolls.
-SmallWorld ball_on(const std::function<void(SmallWorld&)>& ground) {
-    SmallWorld w = make_world(rubbing_pair(), 2e-6);
+HandMadeBed ball_on(const std::function<void(HandMadeBed&)>& ground) {
+    HandMadeBed w = make_world(rubbing_pair(), 2e-6);
     ground(w);
     w.around.gravity = {0, 0, -kGravity};
     const double sink = sphere_mass() * kGravity / kStiffness;
@@ -30,12 +30,12 @@ SmallWorld ball_on(const std::function<void(SmallWorld&)>& ground) {
 }
 
 TEST(MeshContacts, ABallRollsOnTrianglesAsOnAPlane) {
-    SmallWorld plane = ball_on([](SmallWorld& w) { w.around.faces = {floor_face()}; });
+    HandMadeBed plane = ball_on([](HandMadeBed& w) { w.around.faces = {floor_face()}; });
     plane.run(60000);
     const Vec3 v = plane.velocity(0);
     ASSERT_GT(v.norm(), 0.2);
     for (const int n : {1, 20, 80}) {
-        SmallWorld mesh = ball_on([&](SmallWorld& w) { add_mesh(w, "floor", square_mesh(0.1, n)); });
+        HandMadeBed mesh = ball_on([&](HandMadeBed& w) { add_mesh(w, "floor", square_mesh(0.1, n)); });
         double highest = 0;
         for (int k = 0; k < 600; ++k) {
             mesh.run(100);
@@ -51,7 +51,7 @@ TEST(MeshContacts, ABallRollsOnTrianglesAsOnAPlane) {
 // A ball falls on a face, over an edge and over a vertex.
 TEST(MeshContacts, ABallReturnsAlikeFromFacesEdgesAndVertices) {
     const auto rebound = [](const Vec3& above) {
-        SmallWorld w = make_world(walton_braun_pair(0.8, 0.3), 1e-6);
+        HandMadeBed w = make_world(walton_braun_pair(0.8, 0.3), 1e-6);
         add_mesh(w, "floor", square_mesh(0.1, 10));
         w.grains.add(0, 0, above + Vec3(0, 0, 1.001 * kRadius), kRadius, kDensity);
         w.grains.motion[0].velocity = {0.01, 0.02, -0.5};
@@ -67,7 +67,7 @@ TEST(MeshContacts, ABallReturnsAlikeFromFacesEdgesAndVertices) {
 
 TEST(MeshContacts, ConesOf10AndOf50TrianglesAreAlikeAtTheTip) {
     const auto rebound = [](int sides) {
-        SmallWorld w = make_world(walton_braun_pair(0.8, 0.3), 1e-6);
+        HandMadeBed w = make_world(walton_braun_pair(0.8, 0.3), 1e-6);
         add_mesh(w, "cone", cone_mesh(0.02, 0.03, sides));
         w.grains.add(0, 0, Vec3(0.0002, 0.0001, 1.001 * kRadius), kRadius, kDensity);
         w.grains.motion[0].velocity = {0, 0, -0.5};
@@ -121,7 +121,7 @@ TEST(MeshContacts, TheWedgeOfTrianglesPushesAsThatOfPlanes) {
             if (distance < 1.3 * kRadius) at += (kRadius - 1e-5 - distance) * face.normal;
         }
         const auto pushed = [&](bool triangles) {
-            SmallWorld w = make_world(walton_braun_pair(0.9, 0.4), 1e-6);
+            HandMadeBed w = make_world(walton_braun_pair(0.9, 0.4), 1e-6);
             if (triangles)
                 for (const Face& face : faces) add_mesh(w, face.name, mesh_of({face}, 1));
             else
@@ -146,7 +146,7 @@ TEST(MeshContacts, TheWedgeOfTrianglesPushesAsThatOfPlanes) {
 // A ball lies in a corner of one mesh, whose sides meet in edges.
 TEST(MeshContacts, ABoxOfTrianglesHoldsABallInItsCornerAsPlanesDo) {
     const auto pushed = [](bool triangles) {
-        SmallWorld w = make_world(walton_braun_pair(0.9, 0.4), 1e-6);
+        HandMadeBed w = make_world(walton_braun_pair(0.9, 0.4), 1e-6);
         Container box;
         box.shape = Container::Shape::box;
         box.half_width = box.depth = 0.02;
@@ -170,7 +170,7 @@ TEST(MeshContacts, ABoxOfTrianglesHoldsABallInItsCornerAsPlanesDo) {
 
 // A ball that meets two ridges at once has two contacts, each of which has the mesh's number and a triangle.
 TEST(MeshContacts, AreShownWithTheirMeshAndTriangle) {
-    SmallWorld w = make_world(rubbing_pair(), 1e-6);
+    HandMadeBed w = make_world(rubbing_pair(), 1e-6);
     w.around.faces = {floor_face()};
     add_mesh(w, "far", square_mesh(0.01, 1)).body.velocity = Vec3(0, 0, 0);
     w.around.meshes.clear(), w.plan.mesh.clear();
@@ -197,7 +197,7 @@ TEST(MeshContacts, AreShownWithTheirMeshAndTriangle) {
 TEST(MeshContacts, AnElasticGasKeepsItsEnergyInAClosedMesh) {
     const auto energies = [](bool triangles) {
         PairPlan pair = walton_braun_pair(1, 0);
-        SmallWorld w = make_world(pair, 2e-6, NormalForce::spring_dashpot, TangentialLaw::none);
+        HandMadeBed w = make_world(pair, 2e-6, NormalForce::spring_dashpot, TangentialLaw::none);
         if (triangles) {
             add_mesh(w, "box", box_mesh(Vec3(-0.01, -0.01, 0), Vec3(0.01, 0.01, 0.02), 3));
         } else {
@@ -227,7 +227,7 @@ TEST(MeshContacts, AnElasticGasKeepsItsEnergyInAClosedMesh) {
 
 TEST(MeshContacts, AGrainThatCrossesASheetEndsTheRunWithItsName) {
     for (const int threads : {1, 2}) {
-        SmallWorld w = make_world(walton_braun_pair(0.9, 0.4), 1e-5);
+        HandMadeBed w = make_world(walton_braun_pair(0.9, 0.4), 1e-5);
         w.team = std::make_unique<Team>(threads);
         add_mesh(w, "vane", square_mesh(0.05, 3));
         for (int i = 0; i < 20; ++i) {

@@ -30,7 +30,7 @@ class TurningPlate : public testing::TestWithParam<bool> {};
 TEST_P(TurningPlate, LeadsARollingBallRoundATwoSeventhsOfItsRate) {
     const double rate = 8;  // rad/s
     const Vec3 through(0.003, -0.002, 0);
-    SmallWorld w = make_world(walton_braun_pair(0.9, 0.8), 2e-6);
+    HandMadeBed w = make_world(walton_braun_pair(0.9, 0.8), 2e-6);
     const BodyTurn turn = turn_about(Vec3(0, 0, 1), rate, through);
     if (GetParam())
         add_mesh(w, "plate", square_mesh(0.2, 13)).body.turn = turn;
@@ -67,7 +67,7 @@ InDrum in_drum(int facets, std::int64_t steps, double friction = 0.5, double rol
     PairPlan pair = walton_braun_pair(0.6, friction);
     pair.rolling_friction = rolling;
     pair.model.rolls = rolling > 0;
-    SmallWorld w = make_world(pair, 2e-6);
+    HandMadeBed w = make_world(pair, 2e-6);
     const double radius = 0.02;
     const BodyTurn turn = turn_about(Vec3(0, 0, 1), 5);
     if (facets > 0) {
@@ -144,7 +144,7 @@ TEST_P(FloorAtRest, TakesTheTorqueOfRollingResistance) {
     PairPlan pair = walton_braun_pair(0.6, 0.5);
     pair.rolling_friction = 0.2;
     pair.model.rolls = true;
-    SmallWorld w = make_world(pair, 2e-6);
+    HandMadeBed w = make_world(pair, 2e-6);
     if (GetParam())
         add_mesh(w, "floor", square_mesh(0.2, 13));
     else
@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(, FloorAtRest, testing::Values(true, false),
 TEST(TurningMesh, CarriesABallThatTurnsWithIt) {
     const double rate = 30;
     for (const bool triangles : {true, false}) {
-        SmallWorld w = make_world(walton_braun_pair(1, 0.8), 1e-6);
+        HandMadeBed w = make_world(walton_braun_pair(1, 0.8), 1e-6);
         const BodyTurn turn = turn_about(Vec3(1, 2, 2) / 3, rate, Vec3(0.02, 0.01, 0.01));
         if (triangles)
             add_mesh(w, "plate", square_mesh(0.03, 5)).body.turn = turn;
@@ -219,8 +219,8 @@ TEST(TurningMesh, CarriesABallThatTurnsWithIt) {
 }
 
 // A box of 20 mm by 40 mm by 40 mm that turns, of planes or of triangles, with one ball in it.
-SmallWorld in_turning_box(bool triangles, const BodyTurn& turn, const PairPlan& pair) {
-    SmallWorld w = make_world(pair, 1e-6);
+HandMadeBed in_turning_box(bool triangles, const BodyTurn& turn, const PairPlan& pair) {
+    HandMadeBed w = make_world(pair, 1e-6);
     Container box;
     box.shape = Container::Shape::box;
     box.half_width = box.depth = 0.02;
@@ -256,7 +256,7 @@ TEST(TurningBox, OfTrianglesPushesAsThatOfPlanes) {
         const BodyTurn turn =
             turn_about(axis, 40 * one(random), 0.02 * Vec3(one(random), one(random), one(random)));
         const auto pushed = [&](bool triangles) {
-            SmallWorld w = in_turning_box(triangles, turn, walton_braun_pair(0.9, 0.4));
+            HandMadeBed w = in_turning_box(triangles, turn, walton_braun_pair(0.9, 0.4));
             w.grains.add(0, 0, at, kRadius, kDensity);
             w.grains.motion[0].velocity = velocity;
             w.grains.motion[0].spin = spin;
@@ -281,7 +281,7 @@ TEST(TurningBox, PressesAsTheTurnedPlaneDoes) {
     const BodyTurn turn = turn_about(Vec3(2, -1, 2) / 3, 20, Vec3(-0.004, 0.007, 0.011));
     const Vec3 normal(-1, 0, 0), on_side(0.01, 0, 0), at(0.01 - kRadius + 1e-6, 0.002, 0.03);
     for (const bool triangles : {false, true}) {
-        SmallWorld w = in_turning_box(triangles, turn, walton_braun_pair(0.9, 0));
+        HandMadeBed w = in_turning_box(triangles, turn, walton_braun_pair(0.9, 0));
         w.grains.add(0, 0, at, kRadius, 1e18);
         w.start();
         double last = 0;
@@ -301,11 +301,11 @@ TEST(TurningBox, PressesAsTheTurnedPlaneDoes) {
 }
 
 // A bed in a closed box with a vane that turns and a tube that is shaken.
-SmallWorld bed(int threads) {
+HandMadeBed bed(int threads) {
     PairPlan pair = walton_braun_pair(0.4, 0.5);
     pair.rolling_friction = 0.1;
     pair.model.rolls = true;
-    SmallWorld w = make_world(pair, 5e-6);
+    HandMadeBed w = make_world(pair, 5e-6);
     w.team = std::make_unique<Team>(threads);
     add_mesh(w, "box", box_mesh(Vec3(-0.016, -0.016, 0), Vec3(0.016, 0.016, 0.05), 9));
     TriangleMesh vane;
@@ -334,7 +334,7 @@ SmallWorld bed(int threads) {
     return w;
 }
 
-std::string state_of(const SmallWorld& w) {
+std::string state_of(const HandMadeBed& w) {
     std::ostringstream out;
     w.loop->save(out);
     for (std::size_t i = 0; i < w.grains.size(); ++i) {
@@ -348,7 +348,7 @@ std::string state_of(const SmallWorld& w) {
     return out.str();
 }
 
-std::string seen_in(const SmallWorld& w) {
+std::string seen_in(const HandMadeBed& w) {
     std::ostringstream out;
     w.loop->visit_contacts(w.step, [&](const ContactView& c) {
         write_value(out, c.first), write_value(out, c.second), write_value(out, c.triangle);
@@ -360,7 +360,7 @@ std::string seen_in(const SmallWorld& w) {
 TEST(MeshSameBits, OnOneTwoAndThreeThreads) {
     std::vector<std::string> states, seen;
     for (const int threads : {1, 2, 3}) {
-        SmallWorld w = bed(threads);
+        HandMadeBed w = bed(threads);
         for (int k = 0; k < 40; ++k) w.run(150);
         states.push_back(state_of(w));
         seen.push_back(seen_in(w));
@@ -381,13 +381,13 @@ TEST(MeshSameBits, OnOneTwoAndThreeThreads) {
 // The run is saved during contacts, and read by another number of threads.
 TEST(MeshSameBits, ThroughACheckpoint) {
     for (const std::int64_t at : {1500, 2777, 4001}) {
-        SmallWorld whole = bed(1);
+        HandMadeBed whole = bed(1);
         whole.run(at);
         std::ostringstream saved;
         whole.loop->save(saved);
         const std::string before = seen_in(whole);
         for (const int threads : {1, 2, 3}) {
-            SmallWorld w = bed(1);
+            HandMadeBed w = bed(1);
             w.grains = whole.grains;
             w.step = at;
             w.team = std::make_unique<Team>(threads);
@@ -398,7 +398,7 @@ TEST(MeshSameBits, ThroughACheckpoint) {
             ASSERT_FALSE(in.failed());
             EXPECT_EQ(seen_in(w), before);
             w.run(1300);
-            SmallWorld on = bed(1);
+            HandMadeBed on = bed(1);
             on.run(at), on.run(1300);
             EXPECT_EQ(state_of(w), state_of(on)) << at << " " << threads;
         }
@@ -407,7 +407,7 @@ TEST(MeshSameBits, ThroughACheckpoint) {
 
 // A checkpoint that was tampered with is refused, and nothing is read beyond its end.
 TEST(MeshSameBits, AForgedTriangleIsRefused) {
-    SmallWorld w = bed(1);
+    HandMadeBed w = bed(1);
     w.run(2000);
     std::ostringstream saved;
     w.loop->save(saved);
@@ -419,7 +419,7 @@ TEST(MeshSameBits, AForgedTriangleIsRefused) {
         const std::size_t at = random() % (text.size() - 8);
         for (std::size_t b = 0; b < 8; ++b) text[at + b] = static_cast<char>(random());
         Bytes in(text);
-        SmallWorld other = bed(1);
+        HandMadeBed other = bed(1);
         other.grains = w.grains;
         other.loop = std::make_unique<StepLoop>(other.plan, other.around, other.grains, *other.team);
         other.loop->load(in, w.step);
@@ -433,7 +433,7 @@ TEST(MeshSameBits, AForgedTriangleIsRefused) {
 TEST(MeshSameBits, WhenGrainsLeaveAndCome) {
     std::vector<std::string> states;
     for (const int threads : {1, 2, 3}) {
-        SmallWorld w = bed(threads);
+        HandMadeBed w = bed(threads);
         w.run(3000);
         w.loop->remove({5, 17, 40, 41, 90}, w.step);
         w.run(1);

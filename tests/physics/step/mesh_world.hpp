@@ -105,12 +105,12 @@ inline std::shared_ptr<const Surface> surface_of(TriangleMesh mesh) {
 }
 
 // Lets time pass for bodies with motions of their own.
-inline void start_clock(SmallWorld& w) {
+inline void start_clock(HandMadeBed& w) {
     w.around.motion = WallMotion(Drive{}, w.plan.clock);
 }
 
 // Adds a mesh with the contact of walls.
-inline MeshWall& add_mesh(SmallWorld& w, const std::string& name, TriangleMesh mesh) {
+inline MeshWall& add_mesh(HandMadeBed& w, const std::string& name, TriangleMesh mesh) {
     MeshWall wall;
     wall.name = name;
     wall.surface = surface_of(std::move(mesh));

@@ -207,7 +207,7 @@ TEST(ContactTable, TellsCandidatesFromContacts) {
 TEST(Lists, DropContactsThatHaveParted) {
     constexpr int pairs = 60, patience = 40;  // steps: of half a contact a grain, 16 are worth a refresh
     for (const int threads : {1, 3}) {
-        SmallWorld w = make_world(walton_braun_pair(0.1, 0.3), 2e-6);
+        HandMadeBed w = make_world(walton_braun_pair(0.1, 0.3), 2e-6);
         w.team = std::make_unique<Team>(threads);
         for (int k = 0; k < pairs; ++k) {
             const Vec3 one(0, 0, 0.01 * k), two(2.001 * kRadius, 0, 0.01 * k);

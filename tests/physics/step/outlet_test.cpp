@@ -101,7 +101,7 @@ TEST(Outlet, ContactsHaveOverlapAndNormalOfTheFormula) {
                                         {Container::Shape::cylinder, Outlet::Shape::hole},
                                         {Container::Shape::wedge, Outlet::Shape::slot}}) {
         const Container c = container_with(shape, outlet);
-        SmallWorld w = make_world(walton_braun_pair(0.9, 0.3), 1e-7);
+        HandMadeBed w = make_world(walton_braun_pair(0.9, 0.3), 1e-7);
         w.around.faces = open_faces(c);
         std::int32_t id = 0;
         for (int x = -20; x <= 20; ++x)
@@ -131,10 +131,11 @@ TEST(Outlet, ContactsHaveOverlapAndNormalOfTheFormula) {
 }
 
 // A ball at rest at the edge of a slot or of a wide hole, at an angle (rad) from the vertical.
-SmallWorld at_the_edge(double angle, double friction, Outlet::Shape shape = Outlet::Shape::slot) {
+HandMadeBed at_the_edge(double angle, double friction, Outlet::Shape shape = Outlet::Shape::slot) {
     PairPlan pair = walton_braun_pair(1, friction);
-    SmallWorld w = make_world(pair, 0.05 * std::sqrt(sphere_mass() / kStiffness), NormalForce::spring_dashpot,
-                              friction > 0 ? TangentialLaw::linear_spring : TangentialLaw::none);
+    HandMadeBed w =
+        make_world(pair, 0.05 * std::sqrt(sphere_mass() / kStiffness), NormalForce::spring_dashpot,
+                   friction > 0 ? TangentialLaw::linear_spring : TangentialLaw::none);
     Container c = container_with(Container::Shape::box, shape);
     w.around.faces = open_faces(c);
     w.around.gravity = {0, 0, -9.81};
@@ -153,7 +154,7 @@ TEST(Outlet, ABallLeavesTheEdgeAtTheAngleOfTheClosedForm) {
     for (const double friction : {0.0, 1e3})
         for (const Outlet::Shape shape : {Outlet::Shape::slot, Outlet::Shape::hole}) {
             const double start = 0.2, q = friction > 0 ? 0.4 : 0;
-            SmallWorld w = at_the_edge(start, friction, shape);
+            HandMadeBed w = at_the_edge(start, friction, shape);
             const double before = w.energy();
             double left_at = 0;
             while (left_at == 0 && w.step < 200000) {
@@ -177,7 +178,7 @@ TEST(Outlet, ABallLeavesTheEdgeAtTheAngleOfTheClosedForm) {
 // goes on across the edge because the contact stays the same one.
 TEST(Outlet, FrictionGoesOnFromTheFloorToItsEdge) {
     const double lean = 0.3;
-    SmallWorld w = at_the_edge(0, 1e3);
+    HandMadeBed w = at_the_edge(0, 1e3);
     w.around.gravity = 9.81 * Vec3(0, std::sin(lean), -std::cos(lean));
     w.grains.place[0].position.y() -= 0.2 * kRadius;
     w.plan.wall[0].normal_damping = 0;
@@ -206,7 +207,7 @@ TEST(Outlet, FrictionGoesOnFromTheFloorToItsEdge) {
 TEST(Outlet, TheFloorIsAWallFromBelowToo) {
     const double e = 0.7, speed = 0.4, natural = std::sqrt(sphere_mass() / kStiffness);
     for (const double side : {1.0, -1.0}) {
-        SmallWorld w = make_world(walton_braun_pair(e, 0.3), natural / 200);
+        HandMadeBed w = make_world(walton_braun_pair(e, 0.3), natural / 200);
         w.around.faces = open_faces(container_with(Container::Shape::box, Outlet::Shape::slot));
         w.grains.add(0, 0, Vec3(0, 0.03, side * 1.05 * kRadius), kRadius, kDensity);
         w.grains.motion[0].velocity = Vec3(0, 0, -side * speed);
@@ -220,7 +221,7 @@ TEST(Outlet, TheFloorIsAWallFromBelowToo) {
 // A ball rests on the floor where the outlet opens. From then on it falls freely: the last force of the floor
 // does not act for half a step more.
 TEST(Outlet, TheGateDoesNotPushAnyMoreOnceItIsOpen) {
-    SmallWorld w = at_the_edge(0, 0);
+    HandMadeBed w = at_the_edge(0, 0);
     Container c = container_with(Container::Shape::box, Outlet::Shape::slot);
     w.around.faces = container_faces(c, Drive{});
     w.grains.place[0].position.y() = 0;
@@ -462,7 +463,7 @@ TEST(Outlet, OpeningBalances) {
     const Scene scene = scene_of({"drive={}", "container.outlet.opens=0 s"});
     const Plan plan = make_plan(scene);
     Surroundings around = make_surroundings(scene, plan);
-    SmallWorld w;
+    HandMadeBed w;
     w.plan = plan;
     w.around = around;
     for (int i = 0; i < 36; ++i)

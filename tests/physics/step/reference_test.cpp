@@ -90,8 +90,8 @@ std::vector<ReferenceGrain> grains_of(const Bed& bed) {
     return grains;
 }
 
-SmallWorld fast_world(const Plan& plan, const Bed& bed, const std::vector<ReferenceGrain>& grains) {
-    SmallWorld w;
+HandMadeBed fast_world(const Plan& plan, const Bed& bed, const std::vector<ReferenceGrain>& grains) {
+    HandMadeBed w;
     w.plan = plan;
     w.around.faces = faces_of(bed);
     w.around.gravity = bed.gravity;
@@ -130,7 +130,7 @@ struct Apart {
 
 Apart apart(const Plan& plan, const Plan& plain_plan, const Bed& bed) {
     const std::vector<ReferenceGrain> grains = grains_of(bed);
-    SmallWorld fast = fast_world(plan, bed, grains);
+    HandMadeBed fast = fast_world(plan, bed, grains);
     ReferenceStep plain(plain_plan, faces_of(bed), bed.gravity, bed.shaking, grains);
     fast.run(bed.steps);
     plain.run(bed.steps);

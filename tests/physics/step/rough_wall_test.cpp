@@ -130,10 +130,10 @@ TEST(RoughWalls, FollowTheSeed) {
 }
 
 // A world of one free grain and one that is glued to a plane far below.
-SmallWorld beside_glued(const PairPlan& pair, double step, const Vec3& from, const Vec3& velocity,
-                        NormalForce normal = NormalForce::walton_braun,
-                        TangentialLaw tangential = TangentialLaw::incremental_slip) {
-    SmallWorld w = make_world(pair, step, normal, tangential);
+HandMadeBed beside_glued(const PairPlan& pair, double step, const Vec3& from, const Vec3& velocity,
+                         NormalForce normal = NormalForce::walton_braun,
+                         TangentialLaw tangential = TangentialLaw::incremental_slip) {
+    HandMadeBed w = make_world(pair, step, normal, tangential);
     w.plan.glued = w.plan.wall;
     Face far_below = floor_face();
     far_below.point.z() = -1;
@@ -152,7 +152,7 @@ SmallWorld beside_glued(const PairPlan& pair, double step, const Vec3& from, con
 TEST(RoughWalls, AGrainReboundsWithTheRestitutionOfThePair) {
     const double e = 0.6, speed = 0.3, natural = std::sqrt(sphere_mass() / kStiffness);
     const Vec3 along = Vec3(2, -1, 2) / 3;
-    SmallWorld w =
+    HandMadeBed w =
         beside_glued(walton_braun_pair(e, 0.3), natural / 400, 2.5 * kRadius * along, -speed * along);
     const double takes = std::numbers::pi / 2 * (1 + e) * natural;
     w.run(static_cast<std::int64_t>(0.98 * takes / w.plan.clock.step));
@@ -185,10 +185,10 @@ TEST(RoughWalls, AGrainBouncesAsOffAGrainOfInfiniteMass) {
             pair.normal_damping = pair.tangential_damping = 500;
             pair.hertz_damping = 0.1, pair.modulus = 1e7, pair.tangential_ratio = 0.9;
             pair.rolling_friction = 0.05, pair.model.rolls = true;
-            SmallWorld glued = beside_glued(pair, step, from, velocity, normal, tangential);
+            HandMadeBed glued = beside_glued(pair, step, from, velocity, normal, tangential);
             glued.plan.arms = arms;
             glued.start();
-            SmallWorld heavy = make_world(pair, step, normal, tangential);
+            HandMadeBed heavy = make_world(pair, step, normal, tangential);
             heavy.plan.arms = arms;
             heavy.grains.add(0, 0, from, kRadius, kDensity);
             heavy.grains.add(1, 0, Vec3(0, 0, 0), 1.5 * kRadius, 1e14 * kDensity);
@@ -208,7 +208,7 @@ TEST(RoughWalls, AGrainBouncesAsOffAGrainOfInfiniteMass) {
 // grain's energy.
 TEST(RoughWalls, MoveAndWorkAsTheirWallDoes) {
     const double speed = 0.3, step = 0.01 * std::sqrt(sphere_mass() / kStiffness);
-    SmallWorld w =
+    HandMadeBed w =
         make_world(walton_braun_pair(1, 0), step, NormalForce::spring_dashpot, TangentialLaw::none);
     w.plan.glued = w.plan.wall;
     Face far_below = floor_face();
@@ -228,7 +228,7 @@ TEST(RoughWalls, MoveAndWorkAsTheirWallDoes) {
 
 // In a depth that repeats, a glued grain is met from both ends.
 TEST(RoughWalls, AreMetAcrossThePeriod) {
-    SmallWorld w = beside_glued(walton_braun_pair(1, 0), 1e-6, Vec3(0, 0, 1), Vec3::Zero());
+    HandMadeBed w = beside_glued(walton_braun_pair(1, 0), 1e-6, Vec3(0, 0, 1), Vec3::Zero());
     w.around.period = 10 * kRadius;
     w.around.glued.place[0].position.x() = 4.5 * kRadius;
     w.grains.place[0].position = Vec3(-3.5 * kRadius, 0, 0);
@@ -347,7 +347,7 @@ TEST(RoughWalls, ContactsHaveTheFrictionOfTheGluedGrains) {
 // error. A grain often touches several glued grains of one face, each of which has an account of its own.
 TEST(RoughWalls, EnergyBalances) {
     const Scene scene = scene_of({"run.steps_per_contact=60", "drive.direction=[0.3, 1, 0.5]"});
-    SmallWorld w;
+    HandMadeBed w;
     w.plan = make_plan(scene);
     w.around = make_surroundings(scene, w.plan);
     for (int i = 0; i < 16; ++i)

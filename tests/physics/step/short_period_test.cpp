@@ -15,9 +15,9 @@ constexpr double kPeriod = 2.5 * 2 * kRadius;
 constexpr int kGrains = 2 * 4 * 4;
 
 // Grains of two sizes fly into each other over a floor; `copies` of them side by side along x.
-SmallWorld bed(int copies, int threads) {
+HandMadeBed bed(int copies, int threads) {
     const double contact = std::numbers::pi * std::sqrt(sphere_mass() / 2 / kStiffness);
-    SmallWorld w = make_world(walton_braun_pair(0.8, 0.4), contact / 40);
+    HandMadeBed w = make_world(walton_braun_pair(0.8, 0.4), contact / 40);
     w.team = std::make_unique<Team>(threads);
     w.around.gravity = {0, 0, -9.81};
     w.around.faces = {floor_face()};
@@ -40,7 +40,7 @@ SmallWorld bed(int copies, int threads) {
 }
 
 TEST(ShortPeriod, IsAsTwiceTheBedInTwiceThePeriod) {
-    SmallWorld one = bed(1, 1), two = bed(2, 1);
+    HandMadeBed one = bed(1, 1), two = bed(2, 1);
     const double before = one.energy();
     constexpr int kSteps = 6000;  // 10 ms: several impacts a grain
     one.run(kSteps), two.run(kSteps);
@@ -60,10 +60,10 @@ TEST(ShortPeriod, IsAsTwiceTheBedInTwiceThePeriod) {
 }
 
 TEST(ShortPeriod, HasTheSameBitsOnAnyNumberOfThreads) {
-    SmallWorld one = bed(1, 1);
+    HandMadeBed one = bed(1, 1);
     one.run(1000);
     for (const int threads : {2, 3}) {
-        SmallWorld more = bed(1, threads);
+        HandMadeBed more = bed(1, threads);
         more.run(1000);
         for (std::int32_t i = 0; i < kGrains; ++i) EXPECT_EQ(more.position(i), one.position(i)) << i;
     }

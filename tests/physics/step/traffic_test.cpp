@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kGravity = 9.81;  // m/s2
 
-std::uint64_t state_of(const SmallWorld& w) {
+std::uint64_t state_of(const HandMadeBed& w) {
     std::ostringstream out;
     write_state(out, w.step, w.grains, *w.loop);
     return std::hash<std::string>()(out.str());
@@ -47,7 +47,7 @@ class FreeFall : public testing::TestWithParam<Fall> {};
 // z_n = z_0 + v t - g t^2 / 2 falls below the plane in step n and not before.
 TEST_P(FreeFall, LeavesInTheStepOfTheClosedForm) {
     const double dt = 1e-4, up = 0.3, start = 0.05, plane = -0.1;
-    SmallWorld w = make_world(walton_braun_pair(0.9, 0.3), dt);
+    HandMadeBed w = make_world(walton_braun_pair(0.9, 0.3), dt);
     w.plan.integrator = GetParam().integrator;
     w.around.gravity = {0, 0, -kGravity};
     w.around.exits = {exit_below(plane)};
@@ -101,10 +101,10 @@ TEST(Exits, ARegionIsWhereAllItsHalfSpacesAre) {
 // Grains slide along a rough plane under gravity that leans and is fifty times that of the Earth. They leave
 // at a line, together and alone, in contact and free.
 constexpr double kExitLine = 0.02;  // m
-SmallWorld chute(int threads, double restitution = 0.7, double friction = 0.3,
-                 Integrator integrator = Integrator::velocity_verlet) {
+HandMadeBed chute(int threads, double restitution = 0.7, double friction = 0.3,
+                  Integrator integrator = Integrator::velocity_verlet) {
     PairPlan pair = walton_braun_pair(restitution, friction);
-    SmallWorld w = make_world(pair, 0.05 * std::sqrt(sphere_mass() / kStiffness) * std::numbers::pi);
+    HandMadeBed w = make_world(pair, 0.05 * std::sqrt(sphere_mass() / kStiffness) * std::numbers::pi);
     w.team = std::make_unique<Team>(threads);
     w.plan.wall[0].friction = 0.5 * friction;
     w.around.gravity = {0, 300, -400};
@@ -128,7 +128,7 @@ TEST_P(AnyScheme, IsTheSameOnAnyNumberOfThreads) {
     std::vector<Departure> gone;
     std::uint64_t bits = 0;
     for (const int threads : {1, 2, 3}) {
-        SmallWorld w = chute(threads, 0.7, 0.3, GetParam());
+        HandMadeBed w = chute(threads, 0.7, 0.3, GetParam());
         w.run(4000);
         const std::vector<Departure> now = w.loop->take_departures();
         ASSERT_GT(now.size(), 60u);
@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(Traffic, AnyScheme,
 
 TEST(Traffic, IsTheSameOnAnyNumberOfThreadsWhoeverLooks) {
     constexpr std::int64_t kSteps = 4000;
-    SmallWorld one = chute(1);
+    HandMadeBed one = chute(1);
     one.run(kSteps);
     const std::vector<Departure> gone = one.loop->take_departures();
     ASSERT_GT(gone.size(), 60u);
@@ -154,7 +154,7 @@ TEST(Traffic, IsTheSameOnAnyNumberOfThreadsWhoeverLooks) {
     EXPECT_EQ(one.loop->traffic().left, std::ssize(gone));
     EXPECT_EQ(one.grains.size() + gone.size(), 240u);
     for (const int threads : {1, 2, 3}) {
-        SmallWorld other = chute(threads);
+        HandMadeBed other = chute(threads);
         double seen = 0;
         for (std::int64_t look = 0; other.step < kSteps; ++look) {
             other.run(std::min<std::int64_t>(1 + look * 37 % 200, kSteps - other.step));
@@ -168,7 +168,7 @@ TEST(Traffic, IsTheSameOnAnyNumberOfThreadsWhoeverLooks) {
 
 // No force acts between grains that are far apart, and a grain that leaves takes its energy along.
 TEST(Traffic, OfFreeGrainsClosesToTheLastDigits) {
-    SmallWorld w = make_world(walton_braun_pair(0.9, 0.3), 1e-4);
+    HandMadeBed w = make_world(walton_braun_pair(0.9, 0.3), 1e-4);
     w.around.gravity = {0, 0, -kGravity};
     w.around.exits = {exit_below(0)};
     for (int i = 0; i < 20; ++i) {
@@ -187,7 +187,7 @@ TEST(Traffic, OfFreeGrainsClosesToTheLastDigits) {
 
 // Grains are elastic and smooth, so the energy that collisions exchange stays, up to the error of the step.
 TEST(Traffic, OfCollidingGrainsKeepsTheEnergy) {
-    SmallWorld w = chute(1, 1, 0);
+    HandMadeBed w = chute(1, 1, 0);
     const double before = w.energy();
     double turned_over = 0;
     for (int look = 0; look < 40; ++look) {
@@ -203,7 +203,7 @@ TEST(Traffic, OfCollidingGrainsKeepsTheEnergy) {
 // divided by the energy that was exchanged. Energy in the contacts of a grain that leaves goes with it and is
 // not friction.
 TEST(Traffic, BalancesTermByTerm) {
-    SmallWorld w = chute(1);
+    HandMadeBed w = chute(1);
     EnergyBalance balance(w.around, w.grains, *w.loop, 0, w.plan.clock.step);
     double worst = 0;
     while (w.step < 4000) {
@@ -232,8 +232,8 @@ NewGrain falling(double t) {
             Vec3(0, 0, -kDropGravity * t),
             Vec3(0, 0, 0)};
 }
-SmallWorld drop(int threads) {
-    SmallWorld w = make_world(walton_braun_pair(0.8, 0.3), 0.05 * std::sqrt(sphere_mass() / kStiffness));
+HandMadeBed drop(int threads) {
+    HandMadeBed w = make_world(walton_braun_pair(0.8, 0.3), 0.05 * std::sqrt(sphere_mass() / kStiffness));
     w.team = std::make_unique<Team>(threads);
     w.around.gravity = {0, 0, -kDropGravity};
     w.around.faces = {floor_face()};
@@ -241,14 +241,14 @@ SmallWorld drop(int threads) {
     return w;
 }
 // Returns the world in which the second grain is there from the start.
-SmallWorld dropped() {
-    SmallWorld w = drop(1);
+HandMadeBed dropped() {
+    HandMadeBed w = drop(1);
     w.grains.add(1, 0, falling(0).position, kRadius, kDensity);
     w.start();
     w.run(kDropSteps);
     return w;
 }
-void expect_close(const SmallWorld& w, const SmallWorld& wanted) {
+void expect_close(const HandMadeBed& w, const HandMadeBed& wanted) {
     for (const std::int32_t id : {0, 1}) {
         EXPECT_LT((w.position(id) - wanted.position(id)).norm(), of_rounding(1e-9, 1e-5)) << id;
         EXPECT_LT((w.velocity(id) - wanted.velocity(id)).norm(), of_rounding(1e-6, 1e-2)) << id;
@@ -258,14 +258,14 @@ void expect_close(const SmallWorld& w, const SmallWorld& wanted) {
 // The grain acts as if it had been there all the time, whether it comes long before the two meet or two steps
 // before.
 TEST(Traffic, ANewGrainIsLikeOneThatWasAlwaysThere) {
-    const SmallWorld always = dropped();
+    const HandMadeBed always = dropped();
     ASSERT_LT(always.velocity(0).x(), -1e-3) << "it has been hit";
     const double dt = always.plan.clock.step;
     const double meet = std::sqrt(2 * (kDropHeight - 3 * kRadius) / kDropGravity);
     for (const std::int64_t comes : {std::int64_t{300}, static_cast<std::int64_t>(meet / dt) - 2}) {
         std::uint64_t bits = 0;
         for (const int threads : {1, 2, 3}) {
-            SmallWorld w = drop(threads);
+            HandMadeBed w = drop(threads);
             w.start();
             w.run(comes);
             EXPECT_EQ(w.loop->insert({falling(static_cast<double>(comes) * dt)}), 1);
@@ -286,12 +286,12 @@ TEST(Traffic, ANewGrainIsLikeOneThatWasAlwaysThere) {
 // Grains that leave stand before the others in every list; the two grains meet as if the others had never
 // been there.
 TEST(Traffic, ListsCloseUpBehindThoseThatLeave) {
-    const SmallWorld alone = dropped();
+    const HandMadeBed alone = dropped();
     const double dt = alone.plan.clock.step;
     const double meet = std::sqrt(2 * (kDropHeight - 3 * kRadius) / kDropGravity);
     const std::int64_t leave = static_cast<std::int64_t>(meet / dt) - 4;
     for (const int threads : {1, 2}) {
-        SmallWorld w = drop(threads);
+        HandMadeBed w = drop(threads);
         w.around.skin = kRadius;
         w.grains.add(1, 0, falling(0).position, kRadius, kDensity);
         std::vector<std::int32_t> others;
@@ -317,7 +317,7 @@ TEST(Traffic, ListsCloseUpBehindThoseThatLeave) {
 TEST(Traffic, ForcesOfAGrainThatHasLeftDoNotAct) {
     for (const Integrator integrator :
          {Integrator::velocity_verlet, Integrator::leapfrog, Integrator::position_verlet}) {
-        SmallWorld w = make_world(walton_braun_pair(0.8, 0.3), 0.05 * std::sqrt(sphere_mass() / kStiffness));
+        HandMadeBed w = make_world(walton_braun_pair(0.8, 0.3), 0.05 * std::sqrt(sphere_mass() / kStiffness));
         w.plan.integrator = integrator;
         w.grains.add(0, 0, Vec3(0, 0, 0), kRadius, kDensity);
         w.grains.add(1, 0, Vec3(1.99 * kRadius, 0, 0), kRadius, kDensity);
@@ -333,7 +333,7 @@ TEST(Traffic, ForcesOfAGrainThatHasLeftDoNotAct) {
 }
 
 TEST(Traffic, NoIdIsUsedTwice) {
-    SmallWorld w = make_world(walton_braun_pair(0.8, 0.3), 1e-5);
+    HandMadeBed w = make_world(walton_braun_pair(0.8, 0.3), 1e-5);
     for (int i = 0; i < 4; ++i) w.grains.add(i, 0, Vec3(0.01 * i, 0, 0), kRadius, kDensity);
     w.start();
     w.loop->remove({3, 1, 17}, 0);
@@ -356,7 +356,7 @@ TEST(Traffic, NoIdIsUsedTwice) {
 TEST(Traffic, MayBeginWithNobody) {
     std::uint64_t bits = 0;
     for (const int threads : {1, 2, 3}) {
-        SmallWorld w = make_world(walton_braun_pair(0.8, 0.3), 1e-5);
+        HandMadeBed w = make_world(walton_braun_pair(0.8, 0.3), 1e-5);
         w.team = std::make_unique<Team>(threads);
         w.around.gravity = {0, 0, -kGravity};
         w.around.faces = {floor_face()};
@@ -378,14 +378,14 @@ TEST(Traffic, MayBeginWithNobody) {
 
 // The run is saved after some grains left, and between an insertion and the step that follows it.
 TEST(Traffic, GoesOnFromACheckpointToTheSameBits) {
-    const auto add_some = [](SmallWorld& w) {
+    const auto add_some = [](HandMadeBed& w) {
         std::vector<NewGrain> rain;
         for (int i = 0; i < 6; ++i)
             rain.push_back(
                 {0, kRadius, kDensity, Vec3(4.3e-3 * i, -0.02, 0.03), Vec3(0, 0, -0.5), Vec3(0, 0, 0)});
         w.loop->insert(rain);
     };
-    SmallWorld whole = chute(1);
+    HandMadeBed whole = chute(1);
     whole.run(3000);
     add_some(whole);
     const std::uint64_t saved = state_of(whole);
@@ -394,13 +394,13 @@ TEST(Traffic, GoesOnFromACheckpointToTheSameBits) {
     whole.run(800);
     ASSERT_GT(whole.loop->traffic().left, left);
     for (const int threads : {1, 2, 3}) {
-        SmallWorld other = chute(threads);
+        HandMadeBed other = chute(threads);
         other.run(3000);
         add_some(other);
         ASSERT_EQ(state_of(other), saved);
         std::ostringstream lists;
         other.loop->save(lists);
-        SmallWorld on = chute(threads);
+        HandMadeBed on = chute(threads);
         on.grains = other.grains;
         on.loop = std::make_unique<StepLoop>(on.plan, on.around, on.grains, *on.team);
         const std::string bytes = lists.str();

@@ -10,9 +10,9 @@ namespace grainreel {
 namespace {
 
 // Two pairs meet, the second one ten steps before the first. With two threads each thread has one pair.
-SmallWorld two_pairs(int threads) {
+HandMadeBed two_pairs(int threads) {
     constexpr double kStep = 1e-6, kSpeed = 0.5, kApart = 0.05;  // s, m/s, m
-    SmallWorld w =
+    HandMadeBed w =
         make_world(walton_braun_pair(0.9, 0), kStep, NormalForce::walton_braun, TangentialLaw::none);
     for (const int pair : {0, 1}) {
         const double gap = 2 * kSpeed * kStep * (pair == 0 ? 20 : 10);
@@ -28,7 +28,7 @@ SmallWorld two_pairs(int threads) {
 
 TEST(VisitContacts, TakesNewOnesInOneOrderOnAnyNumberOfThreads) {
     for (const int threads : {1, 2, 3}) {
-        SmallWorld w = two_pairs(threads);
+        HandMadeBed w = two_pairs(threads);
         w.start();
         w.run(30);
         ASSERT_EQ(w.loop->refreshes(), 1) << "both contacts are to be new ones";

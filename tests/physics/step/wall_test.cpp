@@ -68,7 +68,7 @@ TEST(Wedge, BallInACornerTouchesBothFaces) {
     PairPlan pair = walton_braun_pair(0.9, 0);
     pair.unloading_stiffness = pair.loading_stiffness;
     pair.normal_damping = 1000;
-    SmallWorld w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::none);
+    HandMadeBed w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::none);
     w.around.faces = container_faces(c, Drive{});
     const double lean = 0.2;
     w.around.gravity = 9.81 * Vec3(0, std::sin(lean), -std::cos(lean));
@@ -108,7 +108,7 @@ TEST(Cylinder, HoldsABallByItsWeightOverStiffness) {
     PairPlan pair = walton_braun_pair(0.7, 0);
     pair.unloading_stiffness = pair.loading_stiffness;
     pair.normal_damping = 0.2 * 2 * std::sqrt(kStiffness / sphere_mass());
-    SmallWorld w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::none);
+    HandMadeBed w = make_world(pair, 1e-6, NormalForce::spring_dashpot, TangentialLaw::none);
     Face wall;
     wall.kind = Face::Kind::cylinder;
     wall.point = Vec3(0.001, -0.002, 0);
@@ -133,7 +133,7 @@ TEST(Drive, DragsARollingBallByTwoSeventhsOfItsMotion) {
     drive.frequency = 20;
     drive.amplitude = 0.0005;
     drive.direction = Vec3(1, 0, 0);
-    SmallWorld w = make_world(walton_braun_pair(0.9, 0.8), 1 / (drive.frequency * 20000));
+    HandMadeBed w = make_world(walton_braun_pair(0.9, 0.8), 1 / (drive.frequency * 20000));
     w.plan.clock.steps_per_period = 20000;
     w.around.faces = {floor_face()};
     w.around.faces[0].body.driven = true;
