@@ -16,9 +16,9 @@ namespace {
 constexpr double kStepLength = 1e-5;  // s
 
 // A cloud of grains without weight, some of which overlap. They push each other apart, rub and spin.
-std::unique_ptr<HandMadeBed> cloud(Integrator integrator, Precision precision = Precision::full) {
-    auto world = std::make_unique<HandMadeBed>(latching_pair(bench_stiffness, 0.8, 0.5, precision),
-                                               kStepLength, integrator);
+std::unique_ptr<SmallWorld> cloud(Integrator integrator, Precision precision = Precision::full) {
+    auto world = std::make_unique<SmallWorld>(latching_pair(bench_stiffness, 0.8, 0.5, precision),
+                                              kStepLength, integrator);
     for (int k = 0; k < 64; ++k) {
         const double apart = (k % 3 == 0 ? 1.99 : 2.4) * bench_radius;
         const Vec3 place(apart * (k % 4), 2.3 * bench_radius * (k / 4 % 4), 1.995 * bench_radius * (k / 16));
@@ -33,7 +33,7 @@ bool is_denormal(double x) {
     return std::fpclassify(x) == FP_SUBNORMAL;
 }
 
-int denormals_in(const HandMadeBed& world) {
+int denormals_in(const SmallWorld& world) {
     int count = 0;
     for (const Motion& motion : world.grains.motion)
         for (int axis = 0; axis < 3; ++axis)
@@ -41,7 +41,7 @@ int denormals_in(const HandMadeBed& world) {
     return count;
 }
 
-bool is_at_rest(const HandMadeBed& world) {
+bool is_at_rest(const SmallWorld& world) {
     return world.grains.motion.front().velocity == Vec3::Zero() &&
            world.grains.motion.back().spin == Vec3::Zero();
 }
