@@ -68,6 +68,8 @@ class Parser {
     }
 
     void read_magic() {
+        // A run that was killed just now may have made the file, and not yet written its header.
+        if (size_ == 0) throw UserError(fmt::format("{}: holds no frame yet: it is empty", path_.string()));
         std::array<char, 4> magic{};
         in_.read(magic.data(), magic.size());
         at_ = magic.size();

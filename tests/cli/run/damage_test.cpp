@@ -291,5 +291,17 @@ TEST_F(DamagedRun, TheDocumentationListsEveryVariable) {
                   docs.substr(contacts, docs.find("\n## ", contacts + 3) - contacts));
 }
 
+// A run may be killed after trajectory.nc was made and before its header was written.
+TEST_F(DamagedRun, AnEmptyTrajectoryHoldsNoFrameYet) {
+    write_text(here / "run/trajectory.nc", "");
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"render", "run", "--at", "0", "--out", "drawn.png"},
+          std::vector<std::string>{"inspect", "run", "--at", "0", "--no-replay"}}) {
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 2) << words[0];
+        EXPECT_THAT(ended.err, HasSubstr("run/trajectory.nc: holds no frame yet")) << words[0];
+    }
+}
+
 }  // namespace
 }  // namespace grainreel
