@@ -1,6 +1,6 @@
-// A Frame is the output of the engine: the state of every grain and of the container at one step. Also here:
-// contacts as files keep them. This header needs neither laws nor the step loop, so code that draws or writes
-// frames does not depend on them.
+// A Frame is the output of the engine: the state of every grain and of the container at one step. This header
+// needs neither the scene, nor laws, nor the step loop, so code that draws or writes frames does not depend
+// on them.
 #pragma once
 
 #include <algorithm>
@@ -10,18 +10,13 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/state/body.hpp"
+#include "engine/state/contact.hpp"
+#include "engine/state/pose.hpp"
 
 namespace grainreel {
 
 class MeasureTable;  // engine/measure/measures.hpp
 struct MeshWear;     // engine/measure/walls/mesh_wear.hpp
-
-// A contact of two bodies that push each other.
-struct Touch {
-    std::int32_t first, second;  // ids; second is -1 - face for a wall
-    double force;                // N, normal force
-};
 
 // Number and mass of the grains that have left a run.
 struct FlowedOut {
@@ -42,7 +37,7 @@ struct Frame {
     double cycles = 0;  // periods since the drive started
     double phase = 0;   // turns in [0, 1)
 
-    // Poses of the bodies by their numbers (engine/state/body.hpp): container, floor, planes and meshes of
+    // Poses of the bodies by their numbers (engine/state/pose.hpp): container, floor, planes and meshes of
     // the scene.
     std::vector<BodyPose> bodies = std::vector<BodyPose>(kFirstPlaneBody);
     BodyPose& container() { return bodies[kContainerBody]; }
@@ -85,23 +80,5 @@ struct Frame {
 };
 
 using FramePtr = std::shared_ptr<const Frame>;
-
-// A contact that carries force, as files keep it.
-struct SavedContact {
-    std::int32_t first, second;  // ids; second is -1 - wall for a wall: faces first, then meshes
-    double normal;               // N, >= 0
-    Vec3 tangential;             // N, on `second`
-    Vec3 point;                  // m
-    std::int32_t triangle = -1;  // triangle of a mesh that is touched; -1 for other bodies
-    bool operator==(const SavedContact&) const = default;
-};
-
-// A force on a body at the point where it acts.
-struct PointForce {
-    Vec3 at;                       // m
-    Vec3 force;                    // N
-    bool pulls = false;            // true if its arrow begins at the point, false if it ends there
-    std::optional<Vec3> centre{};  // m, centre of the grain to which the force belongs
-};
 
 }  // namespace grainreel

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "engine/mesh/surface.hpp"
+#include "engine/base/triangle_mesh.hpp"
+#include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
@@ -94,9 +95,10 @@ FileFacts file_facts(const Scene& scene, bool seen_from_container) {
                         {"frame_of_reference", frame_text(scene, seen_from_container)}};
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const SceneMesh& mesh = scene.meshes[m];
-        facts.attributes.emplace_back(fmt::format("mesh_{}", m + 1),
-                                      fmt::format("{}: {} triangles, file of hash {}, {}", mesh.name,
-                                                  mesh.surface->size(), mesh.hash, motion_text(mesh)));
+        facts.attributes.emplace_back(
+            fmt::format("mesh_{}", m + 1),
+            fmt::format("{}: {} triangles, file of hash {}, {}", mesh.name, mesh.shape().triangles.size(),
+                        mesh.hash, motion_text(mesh)));
     }
     for (const Species& species : scene.species) facts.densities.push_back(species.density);
     std::vector<std::string> walls;

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
-
 namespace grainreel {
+
+struct Scene;  // engine/scene/scene.hpp
 
 struct FileFacts {
     std::vector<std::pair<std::string, std::string>> attributes;  // names and texts of the file's attributes

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/base/clock.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/plain_file.hpp"

@@ -7,13 +7,14 @@
 #include <optional>
 #include <vector>
 
-#include "engine/base/clock.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/traffic.hpp"
 
 namespace grainreel {
+
+struct Clock;  // engine/base/clock.hpp
 
 class OutflowWriter {
   public:

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/triangle_mesh.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/measure/measures.hpp"
-#include "engine/mesh/surface.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
@@ -20,8 +20,8 @@ struct WearReader::Impl {
         : name(path.string()), file(NetcdfFile::open(path)) {
         const std::vector<std::string> names = face_names(scene);
         for (std::size_t m = 0; m < scene.meshes.size(); ++m)
-            meshes.push_back({names.at(names.size() - scene.meshes.size() + m),
-                              static_cast<std::size_t>(scene.meshes[m].surface->size())});
+            meshes.push_back(
+                {names.at(names.size() - scene.meshes.size() + m), scene.meshes[m].shape().triangles.size()});
         for (const Mesh& mesh : meshes) check(mesh);
         const std::size_t counted = file.length("time"),
                           records = std::min(counted, file.records_on_disk(counted));

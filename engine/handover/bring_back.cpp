@@ -23,6 +23,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/traffic.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

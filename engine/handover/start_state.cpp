@@ -13,8 +13,8 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/start/layers.hpp"
-#include "engine/state/body.hpp"
 #include "engine/state/glued_grains.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

@@ -10,7 +10,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
-#include "engine/mesh/surface.hpp"
 
 namespace grainreel {
 
@@ -167,7 +166,7 @@ TriangleWall wall_of(const CarriedScene& carried, const CarriedMesh& carried_mes
     const std::vector<Body> bodies = bodies_of(carried.scene);
     const std::int32_t body = first_mesh_body(carried.scene) + static_cast<std::int32_t>(carried_mesh.number);
     set_motion(carried, bodies[static_cast<std::size_t>(body)], wall);
-    wall.shape = mesh.surface->mesh();
+    wall.shape = mesh.shape();
     wall.curvature = smooth_bend(wall.shape);
     return wall;
 }

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/triangle_mesh.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/handover/carried_scene.hpp"
-#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 

@@ -10,6 +10,7 @@
 
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel::v1 {
 namespace {

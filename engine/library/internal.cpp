@@ -15,6 +15,7 @@
 #include "engine/base/text.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/mesh/load_mesh.hpp"
+#include "engine/state/container_faces.hpp"
 #include "grainreel/contact_law.hpp"
 
 namespace grainreel::v1 {

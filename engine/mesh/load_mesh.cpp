@@ -10,7 +10,7 @@
 
 #include "engine/base/word_reader.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"
-#include "engine/mesh/triangle_mesh.hpp"
+#include "engine/mesh/mesh_edges.hpp"
 #include "engine/mesh/winding.hpp"
 
 namespace grainreel {

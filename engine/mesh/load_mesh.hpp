@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/mesh/triangle_mesh.hpp"
+#include "engine/base/triangle_mesh.hpp"
+#include "engine/mesh/mesh_facts.hpp"
 
 namespace grainreel {
 

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "engine/mesh/level_section.hpp"
+#include "engine/mesh/mesh_edges.hpp"
 #include "engine/mesh/room.hpp"
-#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/mathematics.hpp"
-#include "engine/mesh/triangle_mesh.hpp"
+#include "engine/mesh/mesh_edges.hpp"
 
 namespace grainreel {
 

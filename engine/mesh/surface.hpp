@@ -11,18 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/mesh/triangle_mesh.hpp"
+#include "engine/base/nearest_point.hpp"
+#include "engine/base/triangle_mesh.hpp"
+#include "engine/mesh/mesh_facts.hpp"
 
 namespace grainreel {
-
-// The part of a triangle that is nearest to a point: its face, one of its edges (edge e runs from corner e to
-// corner e + 1), or a corner.
-enum class Feature : std::uint8_t { face, edge0, edge1, edge2, corner0, corner1, corner2 };
-struct NearestPoint {
-    Vec3 at;         // m
-    double squared;  // m2, squared distance from the given point
-    Feature feature;
-};
 
 // The neighbour of a triangle beyond one of its edges.
 struct Neighbour {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/mesh/triangle_mesh.hpp"
+#include "engine/mesh/mesh_edges.hpp"
 
 namespace grainreel {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "engine/mesh/triangle_mesh.hpp"
+#include "engine/base/triangle_mesh.hpp"
 
 namespace grainreel {
 

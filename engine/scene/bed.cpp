@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/base/random.hpp"
 #include "engine/mesh/room.hpp"
 
 namespace grainreel {

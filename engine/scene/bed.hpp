@@ -1,10 +1,12 @@
 // Sizes of the bed that follow from the scene alone.
 #pragma once
 
-#include "engine/base/random.hpp"
+#include "engine/base/vector.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
+
+class Random;  // engine/base/random.hpp
 
 double mean_cube(const SizeSpread& diameter);  // m3, the mean of d^3
 double largest_diameter(const Scene& scene);   // m, the largest that a grain of any species may have

@@ -9,6 +9,7 @@
 #include "engine/base/mathematics.hpp"
 #include "engine/base/rotation.hpp"
 #include "engine/mesh/room.hpp"
+#include "engine/mesh/surface.hpp"
 
 namespace grainreel {
 
@@ -47,6 +48,10 @@ bool Contact::rubs() const {
 
 Quaternion AxisRotation::quaternion() const {
     return rotation_about(axis, angle);
+}
+
+const TriangleMesh& SceneMesh::shape() const {
+    return surface->mesh();
 }
 
 bool SceneMesh::operator==(const SceneMesh& other) const {

@@ -11,13 +11,15 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/measurable.hpp"
 #include "engine/scene/motion.hpp"
 #include "engine/scene/output.hpp"
 
 namespace grainreel {
 
-class EnclosedRoom;  // engine/mesh/room.hpp, which only those include that look into a room
-class Surface;       // engine/mesh/surface.hpp
+class EnclosedRoom;   // engine/mesh/room.hpp, which only those include that look into a room
+class Surface;        // engine/mesh/surface.hpp
+struct TriangleMesh;  // engine/base/triangle_mesh.hpp
 
 // A place in the scene file, for messages. Line and column count from 1. Line 0 means that the value is not
 // in the file: it is a default, or it was set on the command line and `file` says so, e.g. "--set
@@ -191,6 +193,7 @@ struct SceneMesh {
     // from the other members.
     Vec3 low{0, 0, 0}, high{0, 0, 0};
     bool moves() const { return driven || turn || !path_file.empty() || !velocity.isZero(0); }
+    const TriangleMesh& shape() const;  // that of the surface
     // Compares the files by their hashes, not by their paths.
     bool operator==(const SceneMesh& other) const;
 };

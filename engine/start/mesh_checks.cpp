@@ -8,6 +8,7 @@
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

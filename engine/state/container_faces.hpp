@@ -3,14 +3,19 @@
 // are thin plates that end at edges.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"
 
 namespace grainreel {
+
+struct Container;  // engine/scene/scene.hpp
+struct Drive;      // there too
+struct FreeWall;   // there too
+struct Scene;      // there too
 
 struct Face {
     enum class Kind { plane, cylinder };

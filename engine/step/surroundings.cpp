@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/plan/plan.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {

@@ -8,15 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "engine/mesh/surface.hpp"
-#include "engine/plan/plan.hpp"
-#include "engine/scene/scene.hpp"
+#include "engine/base/vector.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/traffic.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
+
+struct Plan;    // engine/plan/plan.hpp
+struct Scene;   // engine/scene/scene.hpp
+class Surface;  // engine/mesh/surface.hpp
 
 // A mesh in the run. Where faces and meshes are numbered together, the meshes come after the faces.
 struct MeshWall {

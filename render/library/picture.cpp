@@ -20,6 +20,7 @@
 #include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/state/container_faces.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/scene/live_text.hpp"
 
 namespace grainreel {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/measure/columns.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/plan/warnings.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -7,12 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/plan/plan.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/scene/film.hpp"
 
 namespace grainreel {
+
+struct Plan;  // engine/plan/plan.hpp
 
 struct FilmedScene : Scene {
     Film film;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/output.hpp"
+#include "engine/scene/measurable.hpp"
 
 namespace grainreel {
 

@@ -1,13 +1,13 @@
 // The usual ranges of the quantities that pictures show, estimated from the scene alone. The constants come
 // from measured beds.
 #include "render/scene/shown_values.hpp"
+#include "engine/base/triangle_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/text/units.hpp"
 
@@ -212,7 +212,7 @@ double weight_pressure(const Scene& scene) {
 // m: the distance of the farthest point of the mesh from the axis of its turn.
 double rim_of(const SceneMesh& mesh, const BodyTurn& turn) {
     double rim = 0;
-    for (const Vec3& at : mesh.surface->mesh().vertices)
+    for (const Vec3& at : mesh.shape().vertices)
         rim = std::max(rim, (at - turn.through).cross(turn.axis).norm());
     return rim;
 }

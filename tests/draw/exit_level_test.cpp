@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "engine/mesh/surface.hpp"
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"

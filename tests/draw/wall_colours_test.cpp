@@ -8,6 +8,7 @@
 
 #include "engine/measure/walls/mesh_wear.hpp"
 #include "engine/mesh/load_mesh.hpp"
+#include "engine/mesh/surface.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
 #include "render/picture/panels/panels.hpp"

@@ -5,7 +5,7 @@
 
 #include "engine/handover/decks.hpp"
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/state/body.hpp"
+#include "engine/state/wall_motion.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/run/simulation/simulation.hpp"
-#include "engine/state/body.hpp"
+#include "engine/state/wall_motion.hpp"
 #include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
 

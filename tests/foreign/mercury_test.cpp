@@ -1,5 +1,6 @@
 // Tests of the readers of MercuryDPM's files: .data, .fstat and .restart.
 #include <fmt/format.h>
+#include <cmath>
 
 #include "tests/foreign/small_files.hpp"
 

@@ -10,7 +10,7 @@
 #include "engine/plan/damping.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "engine/state/body.hpp"
+#include "engine/state/wall_motion.hpp"
 #include "tests/handover/peer_expression.hpp"
 
 namespace grainreel {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/state/body.hpp"
+#include "engine/state/pose.hpp"
 #include "render/page/bed/slabs.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/scene/filmed_scene.hpp"

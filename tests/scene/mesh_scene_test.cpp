@@ -1,6 +1,7 @@
 // Tests of scenes with meshes: what is read, the defaults, and what is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <algorithm>
 #include <numbers>

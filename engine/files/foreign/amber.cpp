@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <string_view>
 
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"

@@ -15,7 +15,8 @@
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/raw_series.hpp"
 #include "engine/files/frames/frame_archive.hpp"
-#include "engine/state/body.hpp"
+#include "engine/state/container_faces.hpp"
+#include "engine/state/pose.hpp"
 
 namespace grainreel {
 

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/gsd_file.hpp"

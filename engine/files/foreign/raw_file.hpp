@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/triangle_mesh.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/world.hpp"
-#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 

@@ -22,6 +22,7 @@
 namespace grainreel {
 
 class FieldsReader;  // engine/files/fields_file.hpp
+struct Scene;        // engine/scene/scene.hpp
 
 // What the frames of an archive have beside ids, species, radii and places.
 struct FrameSupply {

@@ -17,6 +17,7 @@
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/measure/bed/bed_formulas.hpp"
+#include "engine/state/body.hpp"
 
 namespace grainreel {
 

@@ -16,6 +16,7 @@
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

@@ -14,6 +14,7 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

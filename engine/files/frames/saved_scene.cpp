@@ -5,6 +5,7 @@
 #include <optional>
 #include <system_error>
 
+#include "engine/base/clock.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/program.hpp"

@@ -5,13 +5,14 @@
 #include <filesystem>
 #include <vector>
 
-#include "engine/base/clock.hpp"
 #include "engine/frame.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
+
+struct Clock;  // engine/base/clock.hpp
 
 // The folder's path in its usual form: "a/b/" and "a/b/." become "a/b", and "." becomes the folder's name.
 // Throws UserError when there is no such folder.

@@ -10,6 +10,7 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 
@@ -29,7 +30,7 @@ World world_of(const Scene& scene) {
     }
     world.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
     for (const FreeWall& wall : scene.walls) world.bodies.push_back({wall.name, {}, {}});
-    for (const SceneMesh& mesh : scene.meshes) world.bodies.push_back({mesh.name, {}, mesh.surface->mesh()});
+    for (const SceneMesh& mesh : scene.meshes) world.bodies.push_back({mesh.name, {}, mesh.shape()});
     world.container_turns = scene.container.turn.has_value();
     for (const Face& face : faces_of(scene))
         if (face.body.number >= 0)

@@ -11,17 +11,17 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/triangle_mesh.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/files/file_facts.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/frame.hpp"
-#include "engine/mesh/triangle_mesh.hpp"
-#include "engine/scene/scene.hpp"
-#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 
+struct Face;         // engine/state/container_faces.hpp; who makes, copies or changes a World includes it
 struct FrameSupply;  // engine/files/frames/frame_archive.hpp
+struct Scene;        // engine/scene/scene.hpp
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kGlassDensity = 2500;  // kg/m3; taken where the density is not known

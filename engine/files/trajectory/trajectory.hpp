@@ -24,15 +24,16 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/triangle_mesh.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/files/file_facts.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/frame.hpp"
-#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 
-struct Plan;  // engine/plan/plan.hpp
+struct Plan;   // engine/plan/plan.hpp
+struct Scene;  // engine/scene/scene.hpp
 
 // m. A nanometre is too small for any picture. It is not 0, because OVITO then draws its default radius of 1.
 inline constexpr double kAbsentRadius = 1e-9;

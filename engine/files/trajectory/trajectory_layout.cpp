@@ -9,7 +9,6 @@
 #include "engine/base/error.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
-#include "engine/mesh/surface.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/bed.hpp"
 
@@ -176,7 +175,7 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::
     info.traffic = plan.traffic;
     for (const FreeWall& wall : scene.walls) info.bodies.push_back(wall.name);
     for (const SceneMesh& mesh : scene.meshes) {
-        info.meshes.push_back({kFirstPlaneBody + info.bodies.size(), mesh.surface->mesh()});
+        info.meshes.push_back({kFirstPlaneBody + info.bodies.size(), mesh.shape()});
         info.bodies.push_back(mesh.name);
     }
     info.container_turns = scene.container.turn.has_value();

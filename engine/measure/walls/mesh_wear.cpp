@@ -1,5 +1,6 @@
 #include "engine/measure/walls/mesh_wear.hpp"
 
+#include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "engine/measure/measures.hpp"
-#include "engine/scene/scene.hpp"
 
 namespace grainreel {
+
+struct Scene;  // engine/scene/scene.hpp
 
 // Pressure and wear of one mesh, with a number for each triangle.
 struct MeshWear {

@@ -11,6 +11,7 @@
 #include "engine/scene/output.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

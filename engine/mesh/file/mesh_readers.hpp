@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/mesh/triangle_mesh.hpp"
+#include "engine/base/triangle_mesh.hpp"
 
 namespace grainreel {
 

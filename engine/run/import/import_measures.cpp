@@ -15,8 +15,8 @@
 #include "engine/measure/walls/mesh_wear.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

@@ -20,6 +20,8 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/body.hpp"
+#include "engine/state/container_faces.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

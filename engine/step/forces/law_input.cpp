@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/mesh/surface.hpp"
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/geometry/wall_point.hpp"
 

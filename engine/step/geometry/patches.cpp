@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/mesh/surface.hpp"
+
 namespace grainreel {
 
 namespace {

@@ -15,9 +15,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/mesh/surface.hpp"
+#include "engine/base/nearest_point.hpp"
+#include "engine/base/vector.hpp"
 
 namespace grainreel {
+
+class Surface;  // engine/mesh/surface.hpp
 
 struct Patch {
     std::int32_t triangle;  // the triangle that has the nearest point; among equals a face comes before an

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/scene/scene.hpp"
-#include "engine/state/body.hpp"
+#include "engine/state/wall_motion.hpp"
 #include "engine/step/motion/integrate.hpp"
 
 namespace grainreel {

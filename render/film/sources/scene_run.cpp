@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/triangle_mesh.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
-#include "engine/mesh/surface.hpp"
 
 namespace grainreel {
 
@@ -164,7 +164,7 @@ void SceneRun::read_wear_before() {
     }
     std::vector<MeshWear> none;
     for (const SceneMesh& mesh : scene_.meshes) {
-        const auto triangles = static_cast<std::size_t>(mesh.surface->size());
+        const auto triangles = mesh.shape().triangles.size();
         none.push_back({std::vector<double>(triangles, kNoValue), std::vector<double>(triangles, 0.0)});
     }
     worn_ = std::make_shared<const std::vector<MeshWear>>(std::move(none));

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "engine/mesh/surface.hpp"
+#include "engine/state/body.hpp"
 #include "render/page/embed.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
 

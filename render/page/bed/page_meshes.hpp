@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/triangle_mesh.hpp"
 #include "engine/frame.hpp"
-#include "engine/mesh/triangle_mesh.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -24,7 +24,7 @@
 namespace grainreel {
 
 struct PageMesh {
-    std::int32_t body = 0;  // its number in Frame::bodies (engine/state/body.hpp)
+    std::int32_t body = 0;  // its number in Frame::bodies (engine/state/pose.hpp)
     std::string name;
     std::size_t vertices = 0, triangles = 0, glass = 0, sided = 0, edges = 0;
     std::size_t all_triangles = 0;     // number of triangles of the scene's mesh

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/state/body.hpp"
+#include "engine/state/pose.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/scene/filmed_scene.hpp"
 

@@ -14,7 +14,7 @@ namespace grainreel {
 
 // A convex piece of wall, m, in the frame of its body at rest.
 struct Slab {
-    std::int32_t body = 0;              // its number in Frame::bodies (engine/state/body.hpp)
+    std::int32_t body = 0;              // its number in Frame::bodies (engine/state/pose.hpp)
     std::vector<Vec3> inner;            // corners of the side towards the grains, in order around it
     std::vector<Vec3> outer;            // the other side of its thickness, corner by corner; empty for a pane
     std::vector<int> seams = {};        // sides of `inner` (number of the first corner) without an edge line

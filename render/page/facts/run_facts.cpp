@@ -240,9 +240,9 @@ std::string range_text(const Plan& plan, const Value& value) {
 std::string meshes_text(const FilmedScene& scene) {
     std::vector<std::string> texts;
     for (const SceneMesh& mesh : scene.meshes)
-        texts.push_back(fmt::format("{} ({}, {} triangles{})", mesh.name,
-                                    std::filesystem::path(mesh.file).filename().string(),
-                                    mesh.surface->size(), mesh.hash.empty() ? "" : ", XXH64 " + mesh.hash));
+        texts.push_back(fmt::format(
+            "{} ({}, {} triangles{})", mesh.name, std::filesystem::path(mesh.file).filename().string(),
+            mesh.shape().triangles.size(), mesh.hash.empty() ? "" : ", XXH64 " + mesh.hash));
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/team.hpp"
-#include "engine/state/body.hpp"
+#include "engine/state/pose.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/mesh/mesh_shape.hpp"
 #include "render/picture/mesh/screen_setup.hpp"

@@ -1,5 +1,6 @@
 // Finds the edges of a mesh that are drawn and the normals at its corners. This is done once for each mesh.
 #include "render/picture/mesh/mesh_shape.hpp"
+#include "engine/mesh/surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,10 +7,13 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/triangle_mesh.hpp"
 #include "engine/base/vector.hpp"
-#include "engine/mesh/surface.hpp"
 
 namespace grainreel {
+
+struct Neighbour;  // engine/mesh/surface.hpp
+class Surface;     // there too
 
 // vessel: solid where it is seen from inside, glass from outside. solid, glass: the same from both sides.
 // automatic: decided for each connected part, by how much its sides look into something that the mesh

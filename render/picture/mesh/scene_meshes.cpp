@@ -1,6 +1,7 @@
 // The looks and colours of a scene's meshes, their outermost points, and the patches that throw their
 // shadows.
 #include "render/picture/mesh/scene_meshes.hpp"
+#include "engine/state/body.hpp"
 
 #include <algorithm>
 #include <cmath>

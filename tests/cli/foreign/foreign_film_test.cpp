@@ -10,7 +10,7 @@
 
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/run/import/import_ranges.hpp"
-#include "engine/state/body.hpp"
+#include "engine/state/pose.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/foreign/foreign_bed.hpp"
 

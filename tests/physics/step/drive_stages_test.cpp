@@ -4,7 +4,7 @@
 
 #include "engine/plan/times.hpp"
 #include "engine/scene/drive_schedule.hpp"
-#include "engine/state/body.hpp"
+#include "engine/state/wall_motion.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

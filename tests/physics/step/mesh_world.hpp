@@ -11,6 +11,7 @@
 
 #include "engine/mesh/load_mesh.hpp"
 #include "engine/mesh/surface.hpp"
+#include "engine/state/wall_motion.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/state/body.hpp"
+#include "engine/state/wall_motion.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {

@@ -16,12 +16,12 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/base/triangle_mesh.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/text_lines.hpp"
 #include "engine/files/frames/world.hpp"
-#include "engine/mesh/triangle_mesh.hpp"
 
 namespace grainreel {
 

@@ -13,6 +13,8 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/checkpoint_file.hpp"
+#include "engine/state/container_faces.hpp"
+#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 

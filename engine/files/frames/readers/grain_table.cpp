@@ -11,6 +11,7 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/outflow_csv.hpp"
 #include "engine/grain_table.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

@@ -9,6 +9,7 @@
 #include "engine/files/frames/run_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/world.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

@@ -2,6 +2,7 @@
 // Numbers are floats and the box is centred at 0. GSD knows grains by their rows, so their ids are written to
 // log/particles/id.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -12,6 +13,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_writer.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

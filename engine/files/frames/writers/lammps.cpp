@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_writer.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

@@ -2,6 +2,7 @@
 // species has one sphere mesh, drawn by instances (EXT_mesh_gpu_instancing); lengths are in m and y points
 // up.
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/world.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

@@ -16,6 +16,7 @@
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/files/frames/writers/vtk_file.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 

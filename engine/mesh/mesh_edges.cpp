@@ -1,4 +1,4 @@
-#include "engine/mesh/triangle_mesh.hpp"
+#include "engine/mesh/mesh_edges.hpp"
 
 #include <algorithm>
 
