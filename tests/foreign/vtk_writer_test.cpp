@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/files/frames/writers/vtk_file.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 namespace {

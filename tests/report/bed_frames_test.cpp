@@ -9,6 +9,7 @@
 #include <memory>
 #include <random>
 
+#include "engine/state/container_faces.hpp"
 #include "render/page/bed/bed_frames.hpp"
 #include "render/scene/filmed_scene.hpp"
 

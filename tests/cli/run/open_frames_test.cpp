@@ -15,6 +15,7 @@
 #include "engine/questions/questions.hpp"
 #include "engine/run/replay/replay.hpp"
 #include "engine/state/checkpoint_file.hpp"
+#include "engine/state/container_faces.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
