@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -51,6 +52,12 @@ class MeasureTable {
     explicit MeasureTable(std::vector<std::string> columns) : columns_(std::move(columns)) {}
 
     const std::vector<std::string>& columns() const { return columns_; }
+    // The number of a column; none where the table does not have it.
+    std::optional<std::size_t> find(std::string_view name) const {
+        for (std::size_t column = 0; column < columns_.size(); ++column)
+            if (columns_[column] == name) return column;
+        return std::nullopt;
+    }
 
     void add(const std::vector<double>& row) {
         GRAINREEL_CHECK(row.size() == columns_.size());
@@ -69,6 +76,11 @@ class MeasureTable {
         for (std::size_t row = from; row < to; ++row)
             part.push_back(values_.at(row * columns_.size() + column));
         return part;
+    }
+    // All values of a column; empty where the table does not have it.
+    std::vector<double> all(std::string_view name) const {
+        const std::optional<std::size_t> column = find(name);
+        return column ? values(*column, 0, rows()) : std::vector<double>();
     }
 
   private:

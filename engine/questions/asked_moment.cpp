@@ -55,15 +55,10 @@ AskedMoment MomentFinder::find(const MomentRequest& request) const {
     const Clock& clock = run_.clock();
     const std::vector<Frame>& moments = run_.moments();
     const auto named = [&](double time, const char* option) {
-        const double from = run_.from(), to = last_time(), hair = 1e-9 + 1e-9 * std::abs(time);
-        if (std::isnan(from) || std::isnan(to))
-            throw UserError(fmt::format("{}: the time of {} is not known; leave it out", option,
-                                        run_.frames().path().string()));
+        const double to = last_time(), hair = 1e-9 + 1e-9 * std::abs(time);
         // A run of 8 s ends with its last whole step, which may lie a little before.
         if (time > to && time <= to + clock.step * (1 + 1e-9)) time = to;
-        if (!(time >= from - hair && time <= to + hair))
-            throw UserError(fmt::format("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s",
-                                        option, time, from, to));
+        run_.frames().check_time(option, time, to, hair);
         AskedMoment asked;
         asked.nearest = run_.frames().nearest(time);
         asked.step = clock.step > 0 ? std::llround(time / clock.step) : moments[asked.nearest].step;

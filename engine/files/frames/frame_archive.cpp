@@ -1,22 +1,11 @@
 #include "engine/files/frames/frame_archive.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 
-namespace grainreel {
+#include "engine/base/error.hpp"
 
-std::vector<std::string> FrameSupply::lacks() const {
-    std::vector<std::string> names;
-    const auto add = [&](bool has, const char* name) {
-        if (!has) names.emplace_back(name);
-    };
-    add(velocities, "velocities");
-    add(spins, "spins");
-    add(orientations, "orientations");
-    add(contact_numbers, "contact numbers");
-    add(contacts, "contacts");
-    add(measures, "measures");
-    return names;
-}
+namespace grainreel {
 
 std::size_t FrameArchive::nearest(double time) const {
     const std::vector<Frame>& all = moments();
@@ -29,6 +18,34 @@ std::size_t FrameArchive::nearest(double time) const {
     return time - all[index - 1].time <= all[index].time - time ? index - 1 : index;
 }
 
+double FrameArchive::mean_interval() const {
+    const std::vector<Frame>& all = moments();
+    return all.size() < 2 ? 0 : (all.back().time - all.front().time) / static_cast<double>(all.size() - 1);
+}
+
+std::vector<std::size_t> FrameArchive::between(std::optional<double> from, std::optional<double> to,
+                                               std::int64_t every) const {
+    constexpr double hair = 1e-9;  // s: tolerance of times
+    std::vector<std::size_t> chosen;
+    std::int64_t inside = 0;
+    for (std::size_t k = 0; k < moments().size(); ++k) {
+        const double time = moments()[k].time;
+        if (time < from.value_or(time) - hair || time > to.value_or(time) + hair) continue;
+        if (inside++ % every == 0) chosen.push_back(k);
+    }
+    return chosen;
+}
+
+void FrameArchive::check_time(const char* option, double time, double last, double slack) const {
+    const double first = moments().front().time;
+    if (std::isnan(first) || std::isnan(last))
+        throw UserError(
+            fmt::format("{}: the time of {} is not known; leave it out", option, path().string()));
+    if (!(time >= first - slack && time <= last + slack))
+        throw UserError(fmt::format("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s",
+                                    option, time, first, last));
+}
+
 Frame FrameArchive::first_whole() const {
     for (std::size_t i = 0; i + 1 < moments().size(); ++i) {
         try {
@@ -38,15 +55,6 @@ Frame FrameArchive::first_whole() const {
         }
     }
     return grains(moments().size() - 1);
-}
-
-std::vector<std::size_t> FrameArchive::before(std::size_t index, double duration) const {
-    constexpr double room = 1.001;
-    const std::vector<Frame>& all = moments();
-    std::vector<std::size_t> frames;
-    for (std::size_t i = 0; i < index; ++i)
-        if (all[i].time >= all[index].time - room * duration) frames.push_back(i);
-    return frames;
 }
 
 Frame moment_of(const Frame& frame) {

@@ -5,6 +5,7 @@
 // open_frames.cpp.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -32,9 +33,6 @@ struct FrameSupply {
     bool contact_numbers = false;  // Frame::contact_number
     bool contacts = false;         // touches()
     bool measures = false;         // measured_near()
-
-    // Words for what is missing: "velocities", "contacts".
-    std::vector<std::string> lacks() const;
 };
 
 // What the run's observers measured at one moment: a row of measures.csv.
@@ -89,12 +87,21 @@ class FrameArchive {
     // are damaged.
     virtual std::shared_ptr<const FieldsReader> fields() const { return nullptr; }
 
-    // Index of the moment nearest to a time (s). This function and the two below need at least one moment.
+    // Index of the moment nearest to a time (s). This function and those below need at least one moment.
     std::size_t nearest(double time) const;
+    // Mean time (s) between two moments; 0 for a single one.
+    double mean_interval() const;
+    // Indices of one in `every` of the moments from one time (s) to another.
+    std::vector<std::size_t> between(std::optional<double> from, std::optional<double> to,
+                                     std::int64_t every) const;
+    // Throws UserError, with the option's name, for a time (s) outside the run, which ends at `last`. It may
+    // lie `slack` outside.
+    void check_time(const char* option, double time, double last, double slack) const;
+    // As far outside a run as a time may lie. A run may end a little after its last frame, so this is the
+    // time between frames. Messages show times with six digits, so these must be taken too.
+    double usual_slack(double time) const { return mean_interval() + 1e-5 * std::abs(time); }
     // The first frame that is not damaged, with its grains.
     Frame first_whole() const;
-    // Indices of the moments before `index` that lie within `duration` (s); trails go through them.
-    std::vector<std::size_t> before(std::size_t index, double duration) const;
 };
 
 // A frame without its grains.

@@ -43,39 +43,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Throws UserError for a time outside the run. A run may end a little after its last frame, so a time may be
-// as far outside as frames are apart. Messages show times with six digits, so these must be taken too.
-void check_time(const FrameArchive& frames, const char* option, const std::optional<double>& time) {
-    if (!time) return;
-    const std::vector<Frame>& moments = frames.moments();
-    const double first = moments.front().time, last = moments.back().time;
-    if (std::isnan(first) || std::isnan(last))
-        throw UserError(
-            fmt::format("{}: the times of {} are not known; leave it out", option, frames.path().string()));
-    const double intervals = static_cast<double>(std::max<std::size_t>(moments.size(), 2) - 1);
-    const double slack = (last - first) / intervals + 1e-5 * std::abs(*time);
-    if (!(*time >= first - slack && *time <= last + slack))
-        throw UserError(fmt::format("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s",
-                                    option, *time, first, last));
-}
-
 std::vector<std::size_t> chosen(const FrameArchive& frames, const ExportChoice& choice) {
     const std::vector<Frame>& moments = frames.moments();
-    check_time(frames, "--at", choice.at);
-    check_time(frames, "--from", choice.from);
-    check_time(frames, "--until", choice.until);
+    const auto check = [&](const char* option, const std::optional<double>& time) {
+        if (time) frames.check_time(option, *time, moments.back().time, frames.usual_slack(*time));
+    };
+    check("--at", choice.at);
+    check("--from", choice.from);
+    check("--until", choice.until);
     if (choice.from && choice.until && *choice.from > *choice.until)
         throw UserError(fmt::format("--from: {:.6g} s is later than --until, {:.6g} s; exchange the two",
                                     *choice.from, *choice.until));
     if (choice.at) return {frames.nearest(*choice.at)};
-    const double hair = 1e-9;
-    std::vector<std::size_t> all;
-    std::int64_t count = 0;
-    for (std::size_t k = 0; k < moments.size(); ++k) {
-        const double time = moments[k].time;
-        if (time < choice.from.value_or(time) - hair || time > choice.until.value_or(time) + hair) continue;
-        if (count++ % choice.every == 0) all.push_back(k);
-    }
+    std::vector<std::size_t> all = frames.between(choice.from, choice.until, choice.every);
     if (all.empty())
         throw UserError(fmt::format("{}: no frame lies there; they go from {:.6g} to {:.6g} s",
                                     frames.path().string(), moments.front().time, moments.back().time));

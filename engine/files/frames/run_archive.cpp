@@ -242,15 +242,14 @@ void RunArchive::check_contacts_of_run() const {
 // Questions get the nearest row, however far it is, so gaps in the measures are among the faults.
 void RunArchive::look_at_measures() {
     const std::string name = name_of("measures.csv");
-    const auto time = measures_ ? column_of(*measures_, "time_s") : std::nullopt;
+    const std::vector<double> times = measures_ ? measures_->all("time_s") : std::vector<double>();
     std::error_code ignored;
-    if (!time || measures_->rows() == 0) {
+    if (times.empty()) {
         faults_.push_back(fmt::format("{}: {}, so that what was measured is left out", name,
                                       fs::exists(name, ignored) ? "holds no rows" : "is missing"));
         return;
     }
-    const std::size_t rows = measures_->rows();
-    const std::vector<double> times = measures_->values(*time, 0, rows);
+    const std::size_t rows = times.size();
     const double interval = rows > 1 ? times[rows - 1] - times[rows - 2] : 0, end = moments_.back().time;
     if (times.back() < end - 1.5 * interval - 1e-9)
         faults_.push_back(
@@ -260,11 +259,9 @@ void RunArchive::look_at_measures() {
 }
 
 void RunArchive::find_periods() {
-    if (!measures_ || measures_->rows() == 0) return;
-    const std::optional<std::size_t> column = column_of(*measures_, "bed_periods");
-    if (!column) return;  // a run of an earlier version, without this column
-    const std::size_t last = measures_->rows() - 1;
-    const double found = measures_->values(*column, last, last + 1).front();
+    const std::vector<double> rows = measures_ ? measures_->all("bed_periods") : std::vector<double>();
+    if (rows.empty()) return;  // a run of an earlier version has no such column
+    const double found = rows.back();
     if (found >= 1 && found <= PeriodMultiple::kMost) periods_ = static_cast<int>(found);
 }
 
@@ -290,10 +287,8 @@ std::vector<std::string> RunArchive::news() const {
 }
 
 std::optional<MeasuredRow> RunArchive::measured_near(std::size_t index) const {
-    if (!measures_ || measures_->rows() == 0) return std::nullopt;
-    const std::optional<std::size_t> time_column = column_of(*measures_, "time_s");
-    if (!time_column) return std::nullopt;
-    const std::vector<double> times = measures_->values(*time_column, 0, measures_->rows());
+    const std::vector<double> times = measures_ ? measures_->all("time_s") : std::vector<double>();
+    if (times.empty()) return std::nullopt;
     const double time = moments_.at(index).time;
     std::size_t row = 0;
     for (std::size_t k = 1; k < times.size(); ++k)

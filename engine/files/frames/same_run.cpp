@@ -188,7 +188,7 @@ double mean_height(const Frame& frame, std::size_t species) {
 void check_heights(const Scene& scene, const MeasureTable& table, std::size_t row, const Frame& frame,
                    const std::string& measures) {
     for (std::size_t s = 0; s < scene.species.size(); ++s) {
-        const auto column = column_of(table, scene.species[s].name + "_centre_z_m");
+        const auto column = table.find(scene.species[s].name + "_centre_z_m");
         if (!column) continue;
         const double said = table.values(*column, row, row + 1).front(), is = mean_height(frame, s);
         if (std::abs(said - is) > same_place * (scene.species[s].diameter.largest + std::abs(is)))
@@ -219,9 +219,7 @@ void check_rows(double step_length, const std::vector<double>& steps, const std:
 
 void check_measured(const Scene& scene, const MeasureTable& table, const Frame& frame,
                     const std::string& measures) {
-    const auto step = column_of(table, "step");
-    if (!step) return;
-    const std::vector<double> steps = table.values(*step, 0, table.rows());
+    const std::vector<double> steps = table.all("step");
     const auto found = std::lower_bound(steps.begin(), steps.end(), static_cast<double>(frame.step));
     if (found == steps.end() || *found != static_cast<double>(frame.step)) return;
     const auto row = static_cast<std::size_t>(found - steps.begin());
@@ -230,15 +228,14 @@ void check_measured(const Scene& scene, const MeasureTable& table, const Frame& 
 
 void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
                     const FrameArchive& trajectory, const std::string& measures) {
-    const auto step = column_of(table, "step"), time = column_of(table, "time_s"),
-               cycles = column_of(table, "cycles");
-    const std::size_t rows = table.rows();
-    if (!step || !time || !cycles || rows == 0) return;
-    const std::vector<double> steps = table.values(*step, 0, rows);
-    const auto last = [&](std::size_t column) { return table.values(column, rows - 1, rows).front(); };
-    if (clock.step > 0)
-        check_times(scene, clock.step, steps.back(), last(*time), last(*cycles), measures + ": its last row");
-    if (clock.step > 0) check_rows(clock.step, steps, table.values(*time, 0, rows), measures);
+    const std::vector<double> steps = table.all("step"), times = table.all("time_s"),
+                              cycles = table.all("cycles");
+    if (steps.empty() || times.empty() || cycles.empty()) return;
+    if (clock.step > 0) {
+        check_times(scene, clock.step, steps.back(), times.back(), cycles.back(),
+                    measures + ": its last row");
+        check_rows(clock.step, steps, times, measures);
+    }
     for (const auto& [row, index] : moments_of_both(steps, trajectory.moments())) {
         try {
             return check_heights(scene, table, row, trajectory.grains(index), measures);
@@ -269,13 +266,6 @@ void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const
                         "beside it they do not touch",
                         contacts, touch.first, touch.second, frame.time));
     }
-}
-
-std::optional<std::size_t> column_of(const MeasureTable& table, const std::string& name) {
-    const std::vector<std::string>& columns = table.columns();
-    const auto found = std::find(columns.begin(), columns.end(), name);
-    if (found == columns.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - columns.begin());
 }
 
 }  // namespace grainreel

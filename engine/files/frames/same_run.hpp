@@ -2,7 +2,6 @@
 // functions throw UserError with a line that names the two files that disagree.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +31,5 @@ void check_measured(const Scene& scene, const MeasureTable& table, const Frame& 
 // Checks that grains in contact touch in the frame.
 void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
                     const std::string& contacts);
-
-// The number of a column of measures.csv; none where the file does not have it.
-std::optional<std::size_t> column_of(const MeasureTable& table, const std::string& name);
 
 }  // namespace grainreel

@@ -138,12 +138,6 @@ namespace {
 
 constexpr double hair = 1e-9;  // s: tolerance of times
 
-double mean_interval(const std::vector<Frame>& moments) {
-    return moments.size() < 2
-               ? 0
-               : (moments.back().time - moments.front().time) / static_cast<double>(moments.size() - 1);
-}
-
 // Index of the finished run with the fewest frames a second; the other runs have frames at least as often.
 // None when there is no finished run.
 std::optional<std::size_t> coarsest(const Comparison& all) {
@@ -151,8 +145,8 @@ std::optional<std::size_t> coarsest(const Comparison& all) {
     double longest = 0;
     for (std::size_t i = 0; i < all.members.size(); ++i) {
         const FrameArchive* archive = all.members[i]->archive();
-        if (!archive || (found && mean_interval(archive->moments()) <= longest)) continue;
-        longest = mean_interval(archive->moments());
+        if (!archive || (found && archive->mean_interval() <= longest)) continue;
+        longest = archive->mean_interval();
         found = i;
     }
     return found;
@@ -230,7 +224,7 @@ void take_moments_of_record(Comparison& all) {
     all.reference = *coarsest(all);
     const FrameArchive& run = *all.members[all.reference]->archive();
     const auto [from, to] = common_time(all);
-    const double room = 1e-3 * mean_interval(run.moments());
+    const double room = 1e-3 * run.mean_interval();
     std::vector<Frame> moments;
     for (const Frame& moment : run.moments())
         if (moment.time >= from - room && moment.time <= to + room) moments.push_back(moment);

@@ -274,25 +274,16 @@ bool EngineRun::draw() {
     if (!film_.wanted()) return true;
     constexpr bool replay = false;
     RevisitedRun source(folder(), {}, replay);
-    std::vector<Shot> shots;
-    for (const Shot& shot : source.film().shots()) {
-        const std::int64_t step = source.shown(shot.step);
-        if (shots.empty() || step > shots.back().step) shots.push_back({step, shot.segment});
-    }
+    const std::vector<Shot> shots = source.shown_shots();
     if (shots.empty()) return true;
     const auto go_on = [this] { return !desk_.listener.in_a_hurry(); };
     const FramePtr start = source.grains(shots.front().step, go_on);
     if (!start) return false;
-    const FilmedScene& scene = source.scene();
-    CaptionHolds holds(scene.film);
-    film_.open(scene, std::ssize(shots), start);
+    film_.open(source.scene(), std::ssize(shots), start);
     source.start(shots, source.segments());
     while (std::optional<Taken> picture = source.next(go_on)) {
-        const auto timer = desk_.times.during("waiting for the film");
-        const FilmSegment rule = source.segments().at(static_cast<std::size_t>(picture->segment));
-        const FilmSegment pace = played(spanning(rule, picture->periods), scene.film.rate, source.clock());
-        film_.maker().take(picture->frame, playback_caption(pace, scene.drive, scene.film.rate));
-        film_times_.add(*picture->frame, 1 + holds.begin_at(picture->frame->time));
+        film_.show(*picture, source.segments().at(static_cast<std::size_t>(picture->segment)),
+                   source.clock());
         film_.show_progress();
     }
     return true;
@@ -303,7 +294,7 @@ void EngineRun::conclude() {
 }
 
 void EngineRun::side_work_closed() {
-    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.result().frames);
+    film_.write_times();
 }
 
 std::string EngineRun::stopped_text() const {

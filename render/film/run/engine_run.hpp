@@ -64,7 +64,6 @@ class EngineRun final : public FilmRun {
     std::unique_ptr<ReturnedRun> back_;
     std::string unsound_;  // what is wrong with the dump, so that no more of it is read; empty: nothing
     Stopwatch running_;
-    FilmTimesTable film_times_;
 };
 
 }  // namespace grainreel

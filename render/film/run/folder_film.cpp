@@ -51,6 +51,9 @@ void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, FramePtr 
     film.pictures = pictures;
     film.start = std::move(start);
     film.extent = extent_;
+    drive_ = scene.drive;
+    rate_ = scene.film.rate;
+    holds_.emplace(scene.film);
     frames_planned_ = frames_here_.value_or(pictures + held_frames(scene.film));
     film.check_folder = [this] { desk_.folder->lock().check_there(); };
     film_ = draw ? std::make_unique<FilmMaker>(scene, film, std::move(draw))
@@ -59,6 +62,16 @@ void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, FramePtr 
     if (film.film && scene.film.format != FilmFormat::png)
         for (auto& library : ffmpeg_versions()) desk_.record.libraries.push_back(std::move(library));
     desk_.listener.detail("drawn with " + desk_.record.gl);
+}
+
+void FolderFilm::show(const Taken& picture, const FilmSegment& rule, const Clock& clock) {
+    const auto timer = desk_.times.during("waiting for the film");
+    film_->take(picture.frame, pace_caption(rule, picture.periods, drive_, rate_, clock));
+    times_.add(*picture.frame, 1 + holds_->begin_at(picture.frame->time));
+}
+
+void FolderFilm::write_times() const {
+    if (made_) times_.write(desk_.folder->path() / kFilmTimes, result_.frames);
 }
 
 void FolderFilm::close() {

@@ -15,7 +15,9 @@
 #include "engine/run/folder/listener.hpp"
 #include "engine/run/resume/resume_point.hpp"
 #include "render/film/production/film_maker.hpp"
+#include "render/film/sampling/film_frames.hpp"
 #include "render/film/sources/film_request.hpp"
+#include "render/film/sources/frame_source.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -48,6 +50,11 @@ class FolderFilm final : public SideWork {
               DrawerMaker draw = {});
     // The film maker, which takes pictures while the film is open.
     FilmMaker& maker() { return *film_; }
+    // Gives the film its next picture, with a caption about how fast it plays, and notes it for
+    // film_times.csv. rule: the segment by which it was taken.
+    void show(const Taken& picture, const FilmSegment& rule, const Clock& clock);
+    // Writes film_times.csv, if there is a film in the folder. To be called once the film is closed.
+    void write_times() const;
     // Shows the progress of a run that only draws.
     void show_progress();
 
@@ -71,6 +78,10 @@ class FolderFilm final : public SideWork {
     std::int64_t frames_planned_ = 0;  // frames of the film, with those that are held for captions
     FilmExtent extent_;
     std::optional<std::int64_t> frames_here_;
+    Drive drive_;  // of the scene that is shown
+    double rate_ = 0;
+    std::optional<CaptionHolds> holds_;
+    FilmTimesTable times_;
     FilmResult result_;
     bool made_ = false;
 };

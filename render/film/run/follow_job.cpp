@@ -48,8 +48,7 @@ FollowJob::FollowJob(const FilmRequest& request, const FollowRequest& what, RunL
       facts_((check_options(request), read_handover(what.from))),
       scene_(scene_of_run(what.from, what.sets)),
       plan_(make_plan(scene_)),
-      returning_(free_folder(what.from)),
-      holds_(scene_.film) {
+      returning_(free_folder(what.from)) {
     if (const auto lack = lacking_elsewhere(scene_))
         throw UserError(fmt::format("{}: {}", what.from.string(), *lack));
     const std::int64_t pictures = std::ssize(film_schedule(scene_, plan_.clock, plan_.steps));
@@ -162,27 +161,18 @@ void FollowJob::open_anew() {
     since_opened_ = Stopwatch();
 }
 
-bool FollowJob::draw(const Taken& picture) {
-    const auto timer = desk_.times.during("waiting for the film");
+void FollowJob::draw(const Taken& picture) {
     if (!film_.is_open()) {
         const std::int64_t pictures = std::ssize(film_schedule(scene_, plan_.clock, plan_.steps));
         film_.open(scene_, pictures, picture.frame);
     }
-    const FilmSegment rule = source_->segments().at(static_cast<std::size_t>(picture.segment));
-    const FilmSegment pace = played(spanning(rule, picture.periods), scene_.film.rate, plan_.clock);
-    film_.maker().take(picture.frame, playback_caption(pace, scene_.drive, scene_.film.rate));
-    film_times_.add(*picture.frame, 1 + holds_.begin_at(picture.frame->time));
+    film_.show(picture, source_->segments().at(static_cast<std::size_t>(picture.segment)), plan_.clock);
     film_.show_progress();
-    return true;
 }
 
 bool FollowJob::draw_new() {
     if (back_->frames() > opened_at_) open_anew();
-    std::vector<Shot> shots;
-    for (const Shot& shot : source_->film().shots()) {
-        const std::int64_t step = source_->shown(shot.step);
-        if (step > (shots.empty() ? shown_ : shots.back().step)) shots.push_back({step, shot.segment});
-    }
+    const std::vector<Shot> shots = source_->shown_shots(shown_);
     if (shots.empty()) return !stopped();
     const auto go_on = [this] {
         desk_.folder->lock().check_there();
@@ -250,7 +240,7 @@ void FollowJob::finish(End end) {
 }
 
 void FollowJob::side_work_closed() {
-    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.result().frames);
+    film_.write_times();
 }
 
 std::string FollowJob::stopped_text() const {

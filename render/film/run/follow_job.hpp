@@ -47,7 +47,7 @@ class FollowJob final : public FilmRun {
     void open_anew();
     // Draws all pictures whose moments have come. False when told to stop.
     bool draw_new();
-    bool draw(const Taken& picture);
+    void draw(const Taken& picture);
     void finish(End end);
 
     const FollowRequest what_;
@@ -63,9 +63,7 @@ class FollowJob final : public FilmRun {
     std::unique_ptr<RevisitedRun> source_;
     std::int64_t opened_at_ = 0;  // number of moments that source_ knows
     Stopwatch since_opened_;
-    double opening_ = 0;  // s that it took to open it
-    CaptionHolds holds_;
-    FilmTimesTable film_times_;
+    double opening_ = 0;       // s that it took to open it
     std::int64_t shown_ = -1;  // step of the last picture
 };
 

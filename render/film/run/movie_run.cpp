@@ -43,8 +43,7 @@ MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Film
     : SceneFolderRun(request, listener, scene, plan, threads.engine),
       pictures_(std::move(pictures)),
       film_(request, desk_),
-      source_(scene, driver_),
-      holds_(scene.film) {
+      source_(scene, driver_) {
     film_.use_threads(threads);
 }
 
@@ -53,8 +52,7 @@ MovieRun::MovieRun(const FilmRequest& request, RunListener& listener, const Film
     : SceneFolderRun(request, listener, scene, plan, std::move(point)),
       pictures_(std::move(pictures)),
       film_(request, desk_),
-      source_(scene, driver_),
-      holds_(scene.film) {
+      source_(scene, driver_) {
     film_.use_threads(threads_for(request, scene));
 }
 
@@ -88,17 +86,10 @@ void MovieRun::start() {
 
 bool MovieRun::next(const RunDriver::GoOn& go_on) {
     const std::optional<Taken> picture = source_.next(go_on);
-    if (picture) take(*picture);
+    if (picture)
+        film_.show(*picture, source_.scene().film.segments.at(static_cast<std::size_t>(picture->segment)),
+                   driver_.plan().clock);
     return picture.has_value();
-}
-
-void MovieRun::take(const Taken& picture) {
-    const FilmedScene& scene = source_.scene();
-    const auto timer = desk_.times.during("waiting for the film");
-    const FilmSegment& rule = scene.film.segments.at(static_cast<std::size_t>(picture.segment));
-    const FilmSegment pace = played(spanning(rule, picture.periods), scene.film.rate, driver_.plan().clock);
-    film_.maker().take(picture.frame, playback_caption(pace, scene.drive, scene.film.rate));
-    film_times_.add(*picture.frame, 1 + holds_.begin_at(picture.frame->time));
 }
 
 void MovieRun::add_progress(Progress& progress) const {
@@ -107,7 +98,7 @@ void MovieRun::add_progress(Progress& progress) const {
 }
 
 void MovieRun::side_work_closed() {
-    if (film_.made()) film_times_.write(folder() / kFilmTimes, film_.result().frames);
+    film_.write_times();
     SceneFolderRun::side_work_closed();
 }
 

@@ -43,13 +43,10 @@ class MovieRun final : public SceneFolderRun {
     void put_back() override;
 
     void check_film() const;
-    void take(const Taken& picture);
 
     const Pictures pictures_;
     FolderFilm film_;
     SceneRun source_;
-    CaptionHolds holds_;  // tells how many frames film_times_ gets for a picture
-    FilmTimesTable film_times_;
 };
 
 }  // namespace grainreel

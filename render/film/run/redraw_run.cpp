@@ -172,10 +172,8 @@ std::vector<std::string> RedrawRun::warnings() const {
 std::string RedrawRun::caption_of(const Taken& picture) const {
     const auto segment = static_cast<std::size_t>(picture.segment);
     if (kept_alone_ || !captions_.at(segment).empty()) return captions_.at(segment);
-    const Film& film = scene_.film;
-    const FilmSegment rule =
-        played(spanning(segments_of(film).at(segment), picture.periods), film.rate, source_.clock());
-    return playback_caption(rule, scene_.drive, film.rate);
+    return pace_caption(segments_of(scene_.film).at(segment), picture.periods, scene_.drive, scene_.film.rate,
+                        source_.clock());
 }
 
 // The frame of the film's first picture, from which start heights are counted. A film that shows only a part

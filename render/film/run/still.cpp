@@ -64,14 +64,10 @@ Chosen choose(const RenderRequest& what, const RevisitedRun& source) {
     Chosen chosen{source.shown(asked.step), "", std::nullopt};
     const double time = source.film().moment(chosen.step).time;
     if (chosen.step != asked.step) {
-        const std::vector<Frame>& kept = run.moments();
-        const double apart =
-            kept.size() < 2 ? 0
-                            : (kept.back().time - kept.front().time) / static_cast<double>(kept.size() - 1);
         const std::string lack =
             fmt::format("{}: {:.6g} s was not kept ({})", what.frame ? "--frame" : "--at",
                         what.at.value_or(asked.time), source.why_not_all());
-        if (std::abs(time - asked.time) > apart)
+        if (std::abs(time - asked.time) > run.frames().mean_interval())
             throw UserError(
                 fmt::format("{}; the kept moment nearest to it is {:.6g} s, too far away to stand "
                             "for it; choose that one",

@@ -220,6 +220,11 @@ FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock) {
     return segment;
 }
 
+std::string pace_caption(const FilmSegment& segment, int periods, const Drive& drive, double film_rate,
+                         const Clock& clock) {
+    return playback_caption(played(spanning(segment, periods), film_rate, clock), drive, film_rate);
+}
+
 std::vector<std::string> pace_warnings(const FilmedScene& scene, const Clock& clock) {
     std::vector<std::string> warnings;
     const std::vector<FilmSegment> segments = segments_of(scene.film);

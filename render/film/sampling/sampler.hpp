@@ -26,6 +26,9 @@ std::string playback_caption(const FilmSegment& segment, const Drive& drive, dou
 // The segment as it is played: if it asks for frames that lie closer than the steps, it gets one frame a
 // step.
 FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock);
+// The caption of a picture that was taken by a segment while the bed repeated itself after `periods` periods.
+std::string pace_caption(const FilmSegment& segment, int periods, const Drive& drive, double film_rate,
+                         const Clock& clock);
 // A warning for each segment that, played one frame a step, is faster than its playback says.
 std::vector<std::string> pace_warnings(const FilmedScene& scene, const Clock& clock);
 

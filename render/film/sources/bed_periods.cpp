@@ -77,6 +77,20 @@ std::string BedPeriods::news_of(std::int64_t step, double difference) const {
                               means_ ? means + " show the bed's flight" : "");
 }
 
+MeasuredPeriods::MeasuredPeriods(const MeasureTable& table) {
+    const std::vector<double> steps = table.all("step"), periods = table.all("bed_periods"),
+                              differences = table.all("period_difference_m");
+    if (periods.size() != steps.size() || differences.size() != steps.size()) return;
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        rows_.push_back({steps[k], static_cast<int>(periods[k]), differences[k]});
+}
+
+int MeasuredPeriods::at(std::int64_t step) const {
+    const auto after = std::upper_bound(rows_.begin(), rows_.end(), static_cast<double>(step),
+                                        [](double wanted, const Row& row) { return wanted < row.step; });
+    return after == rows_.begin() ? 1 : std::max(1, std::prev(after)->periods);
+}
+
 namespace {
 
 // The displacement from `from` to `to`, the short way round a periodic container.

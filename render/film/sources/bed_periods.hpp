@@ -10,6 +10,7 @@
 
 #include "engine/frame.hpp"
 #include "engine/measure/bed/bed_formulas.hpp"
+#include "engine/measure/measures.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -50,6 +51,26 @@ class BedPeriods {
     int found_ = 1;
     std::map<int, std::int64_t> first_;  // for each segment, the step at which it begins
     std::vector<std::string> news_;
+};
+
+// The periods of the bed by step, as the rows of measures.csv tell them.
+class MeasuredPeriods {
+  public:
+    struct Row {
+        double step = 0;
+        int periods = 1;
+        double difference = 0;  // m, period_difference_m
+    };
+    MeasuredPeriods() = default;
+    // Without the columns of the bed's periods there are no rows.
+    explicit MeasuredPeriods(const MeasureTable& table);
+
+    const std::vector<Row>& rows() const { return rows_; }
+    // The periods that the run had found by that step; 1 before its first row.
+    int at(std::int64_t step) const;
+
+  private:
+    std::vector<Row> rows_;
 };
 
 // Puts grains where they were on average over whole periods of the drive, so that only drift is left.

@@ -51,36 +51,18 @@ ThreadPlan drawing_threads(int wanted) {
 }
 
 void check_times(const RenderRequest& what, const FrameArchive& run, double last) {
-    const std::vector<Frame>& kept = run.moments();
-    const double first = kept.front().time;
-    const double intervals = static_cast<double>(std::max<std::size_t>(kept.size(), 2) - 1);
-    const auto check = [&](const char* option, const std::optional<double>& time) {
-        if (!time) return;
-        if (std::isnan(first) || std::isnan(last))
-            throw UserError(
-                fmt::format("{}: the times of {} are not known; leave it out", option, run.path().string()));
-        const double slack = (kept.back().time - first) / intervals + 1e-5 * std::abs(*time);
-        if (!(*time >= first - slack && *time <= last + slack))
-            throw UserError(fmt::format("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s",
-                                        option, *time, first, last));
-    };
-    check("--from", what.from);
-    check("--to", what.to);
+    if (what.from) run.check_time("--from", *what.from, last, run.usual_slack(*what.from));
+    if (what.to) run.check_time("--to", *what.to, last, run.usual_slack(*what.to));
     if (what.from && what.to && *what.from > *what.to)
         throw UserError(fmt::format("--from: {:.6g} s is later than --to, {:.6g} s; exchange the two",
                                     *what.from, *what.to));
 }
 
 std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive& run) {
-    constexpr double hair = 1e-9;  // s: tolerance of times
     const std::vector<Frame>& moments = run.moments();
-    const double from = what.from.value_or(moments.front().time) - hair;
-    const double to = what.to.value_or(moments.back().time) + hair;
     std::vector<Frame> chosen;
-    std::int64_t inside = 0;
-    for (const Frame& moment : moments)
-        if (moment.time >= from && moment.time <= to && inside++ % what.every.value_or(1) == 0)
-            chosen.push_back(moment);
+    for (const std::size_t k : run.between(what.from, what.to, what.every.value_or(1)))
+        chosen.push_back(moments[k]);
     if (chosen.empty())
         throw UserError(fmt::format("{}: no frame of the run lies there; they go from {:.6g} to {:.6g} s",
                                     what.from ? "--from" : "--to", moments.front().time,

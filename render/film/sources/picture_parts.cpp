@@ -99,12 +99,8 @@ EarlierPictures::EarlierPictures(const FilmedScene& scene, const Clock& clock,
       parts_(scene, clock, 0) {
     const std::shared_ptr<const MeasureTable> rows = read_measures(run / "measures.csv");
     GRAINREEL_CHECK(rows != nullptr);
-    const auto values = [&](const char* name) {
-        const auto column = column_of(*rows, name);
-        return column ? rows->values(*column, 0, rows->rows()) : std::vector<double>();
-    };
-    steps_ = values("step");
-    periods_ = values("bed_periods");
+    steps_ = rows->all("step");
+    periods_ = MeasuredPeriods(*rows);
 }
 
 std::optional<Taken> EarlierPictures::next() {
@@ -124,20 +120,15 @@ std::optional<Taken> EarlierPictures::next() {
     return Taken{std::make_shared<const Frame>(std::move(frame)), shot->segment, periods};
 }
 
-std::size_t EarlierPictures::rows_until(std::int64_t step) const {
-    const auto after = std::upper_bound(steps_.begin(), steps_.end(), static_cast<double>(step));
-    return static_cast<std::size_t>(after - steps_.begin());
-}
-
 PartSupply::Measured EarlierPictures::measured(const Frame& frame) const {
-    return {measures_, rows_until(frame.step)};
+    const auto after = std::upper_bound(steps_.begin(), steps_.end(), static_cast<double>(frame.step));
+    return {measures_, static_cast<std::size_t>(after - steps_.begin())};
 }
 
 // The periods that the run had found by that step, or the number that the scene sets.
 int EarlierPictures::periods_at(std::int64_t step) const {
     if (scene_.film.periods > 0) return scene_.film.periods;
-    const std::size_t rows = std::min(rows_until(step), periods_.size());
-    return rows == 0 ? 1 : std::max(1, static_cast<int>(periods_[rows - 1]));
+    return periods_.at(step);
 }
 
 }  // namespace grainreel

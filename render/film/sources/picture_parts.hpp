@@ -19,6 +19,7 @@
 #include "engine/run/driver/run_files.hpp"
 #include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/bed_periods.hpp"
 #include "render/film/sources/frame_source.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -98,7 +99,6 @@ class EarlierPictures final : private PartSupply {
     std::shared_ptr<const std::vector<MeshWear>> worn(const Frame& frame) const override {
         return wear_ ? wear_->until(frame.time) : nullptr;
     }
-    std::size_t rows_until(std::int64_t step) const;
     int periods_at(std::int64_t step) const;
 
     const FilmedScene& scene_;
@@ -108,7 +108,8 @@ class EarlierPictures final : private PartSupply {
     std::size_t count_, next_ = 0;
     std::shared_ptr<const MeasureTable> measures_;
     std::shared_ptr<const WearReader> wear_;
-    std::vector<double> steps_, periods_;  // steps and bed periods of the rows of measures
+    std::vector<double> steps_;  // of the rows of measures
+    MeasuredPeriods periods_;
     PictureParts parts_;
 };
 

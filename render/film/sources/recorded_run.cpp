@@ -86,11 +86,6 @@ void RecordedRun::do_without_others() {
     if (needs_displacement(scene_.film.shows)) look_for_earlier_frames();
 }
 
-Supply RecordedRun::supply() const {
-    const FrameSupply has = archive_->supply();
-    return {false, has.contacts, has.measures, has.orientations};
-}
-
 // Frames the picture by how high the grains got: for a finished run this need not be estimated.
 void RecordedRun::frame_what_is_reached() {
     Camera& camera = scene_.film.camera;
@@ -105,7 +100,7 @@ void RecordedRun::read_measures_of_run() {
     if (!archive_->measures() || table().rows() == 0) return leave_out_measures("holds no row");
     check_columns();
     const std::size_t rows = table().rows();
-    measured_ = table().values(*column_of(table(), "time_s"), 0, rows);
+    measured_ = table().all("time_s");
     const double last = measured_.back(), interval = rows > 1 ? last - measured_[rows - 2] : 0;
     const double end = moments().back().time;
     if (last < end - 1.5 * interval - 1e-9)
@@ -134,7 +129,7 @@ void RecordedRun::leave_out_measures(const std::string& why) {
 void RecordedRun::check_columns() const {
     const bool imported = is_import();
     const auto need = [&](const std::string& name, const std::string& what) {
-        if (name.empty() || column_of(table(), name)) return;
+        if (name.empty() || table().find(name)) return;
         if (imported)
             throw UserError(
                 fmt::format("{}: {} {}, which is known of runs of ours alone; take that out of the film",
@@ -258,26 +253,6 @@ Frame RecordedRun::frame(std::size_t index) const {
     Frame frame = archive_->grains(index);
     parts_->add(frame, FilmSegment(), archive_->periods(), *this);
     return frame;
-}
-
-std::vector<Frame> RecordedRun::moments(const Pictures& pictures) const {
-    std::vector<Frame> all;
-    for (const Instant& instant : pictures.instants)
-        all.push_back(moments()[archive_->nearest(instant.time)]);
-    return all;
-}
-
-void RecordedRun::start(const Pictures& pictures) {
-    pictures_ = pictures;
-}
-
-std::optional<Taken> RecordedRun::next(const GoOn& go_on) {
-    if (!go_on() || next_ == pictures_.instants.size()) return std::nullopt;
-    const Instant& instant = pictures_.instants[next_++];
-    const int periods = archive_->periods();
-    Frame frame = archive_->grains(archive_->nearest(instant.time));
-    parts_->add(frame, pictures_.segments.at(static_cast<std::size_t>(instant.segment)), periods, *this);
-    return Taken{std::make_shared<const Frame>(std::move(frame)), instant.segment, periods};
 }
 
 }  // namespace grainreel

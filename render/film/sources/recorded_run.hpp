@@ -1,5 +1,4 @@
-// A run that lies on disk, as a source of pictures: its frames, with all that its film shows besides the
-// grains.
+// The frames that a run on disk has kept, with all that its film shows besides the grains.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +23,7 @@ namespace grainreel {
 // nothing of the kind.
 std::optional<std::string> lacking_elsewhere(const FilmedScene& scene);
 
-class RecordedRun final : public FrameSource, private PartSupply {
+class RecordedRun final : private PartSupply {
   public:
     // sets: changes to the scene that concern the drawing only: keys of [film], colours of species,
     // run.threads. Throws UserError for another key, when the folder has no scene.toml or no trajectory.nc
@@ -47,20 +46,14 @@ class RecordedRun final : public FrameSource, private PartSupply {
 
     // Leaves out damaged frames (RunArchive). brought_back: the caller computes their moments again.
     void leave_out_damaged(bool brought_back = false) { archive_->leave_out_damaged(brought_back); }
-    // From now on the source is `alone`: what the kept frames lack cannot be had, and missing parts are
+    // From now on the run is `alone`: what the kept frames lack cannot be had, and missing parts are
     // reported.
     void do_without_others();
 
-    const FilmedScene& scene() const override { return scene_; }  // the scene is named after the folder
-    Supply supply() const override;
-    Span span() const override { return {moments().front().time, moments().back().time}; }
-    const FrameArchive* archive() const override { return archive_.get(); }
-    // For each picture, the kept moment that is nearest in time.
-    std::vector<Frame> moments(const Pictures& pictures) const override;
-    void start(const Pictures& pictures) override;
-    std::optional<Taken> next(const GoOn& go_on) override;
+    const FilmedScene& scene() const { return scene_; }  // the scene is named after the folder
+    Span span() const { return {moments().front().time, moments().back().time}; }
     // Lines about what the film shows and the files lack.
-    std::vector<std::string> news() const override { return archive_->news(); }
+    std::vector<std::string> news() const { return archive_->news(); }
 
     // The archive that it reads, without the parts that a film adds.
     const RunArchive& frames() const { return *archive_; }
@@ -104,9 +97,6 @@ class RecordedRun final : public FrameSource, private PartSupply {
     std::optional<OutflowSums> outflow_;  // for a film that counts the outflow
     std::optional<WearReader> wear_;      // for a film whose walls are coloured by wear
     std::optional<PictureParts> parts_;
-
-    Pictures pictures_;
-    std::size_t next_ = 0;  // index of the next picture
 };
 
 }  // namespace grainreel

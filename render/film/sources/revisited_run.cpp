@@ -18,15 +18,6 @@
 
 namespace grainreel {
 
-namespace {
-
-std::vector<double> column_or_none(const MeasureTable& table, const char* name) {
-    const std::optional<std::size_t> column = column_of(table, name);
-    return column ? table.values(*column, 0, table.rows()) : std::vector<double>();
-}
-
-}  // namespace
-
 FilmOfRun::FilmOfRun(const RecordedRun& run, const Assignments& sets) : run_(run) {
     last_ = run.moments().back().step;
     if (const std::vector<KeptCheckpoint> kept = run.record().checkpoints(); !kept.empty())
@@ -37,29 +28,19 @@ FilmOfRun::FilmOfRun(const RecordedRun& run, const Assignments& sets) : run_(run
     }
     if (same_) read_film_times();
     same_ = !filmed_.empty();
-    read_periods();
+    if (run.frames().measures()) measured_ = MeasuredPeriods(*run.frames().measures());
 }
 
 void FilmOfRun::read_film_times() {
     const auto table = read_measures(run_.frames().folder() / kFilmTimes);
     if (!table) return;
-    for (const double step : column_or_none(*table, "step"))
+    for (const double step : table->all("step"))
         if (std::isfinite(step)) filmed_.insert(std::llround(step));
 }
 
-void FilmOfRun::read_periods() {
-    if (!run_.frames().measures()) return;
-    steps_ = column_or_none(*run_.frames().measures(), "step");
-    periods_ = column_or_none(*run_.frames().measures(), "bed_periods");
-    differences_ = column_or_none(*run_.frames().measures(), "period_difference_m");
-    if (periods_.size() != steps_.size() || differences_.size() != steps_.size()) steps_.clear();
-}
-
 int FilmOfRun::periods_at(std::int64_t step) const {
-    if (run_.scene().film.periods > 0 || !same_ || steps_.empty()) return run_.frames().periods();
-    const auto after = std::upper_bound(steps_.begin(), steps_.end(), static_cast<double>(step));
-    if (after == steps_.begin()) return 1;
-    return std::max(1, static_cast<int>(periods_[static_cast<std::size_t>(after - steps_.begin()) - 1]));
+    const bool fixed = run_.scene().film.periods > 0 || !same_ || measured_.rows().empty();
+    return fixed ? run_.frames().periods() : measured_.at(step);
 }
 
 Frame FilmOfRun::moment(std::int64_t step) const {
@@ -92,12 +73,12 @@ std::vector<Shot> FilmOfRun::with_bed(const std::vector<Shot>& shots) const {
     const bool may_leave_out = true;
     BedPeriods bed(scene, run_.clock(), shots, may_leave_out);
     const std::vector<FilmSegment> segments = segments_of(scene.film);
+    const std::vector<MeasuredPeriods::Row>& rows = measured_.rows();
     std::vector<Shot> kept;
     std::size_t row = 0;
     for (const Shot& shot : shots) {
-        for (; row < steps_.size() && steps_[row] <= static_cast<double>(shot.step); ++row)
-            bed.note(static_cast<std::int64_t>(steps_[row]), static_cast<int>(periods_[row]),
-                     differences_[row]);
+        for (; row < rows.size() && rows[row].step <= static_cast<double>(shot.step); ++row)
+            bed.note(static_cast<std::int64_t>(rows[row].step), rows[row].periods, rows[row].difference);
         const bool told = !filmed_.empty() && shot.step <= *filmed_.rbegin();
         const bool shows = told ? filmed_.count(shot.step) > 0
                                 : bed.shows(segments.at(static_cast<std::size_t>(shot.segment)), shot);
@@ -166,6 +147,15 @@ std::int64_t RevisitedRun::shown(std::int64_t step) const {
     return has(step) ? step : reachable_.nearest_kept(step, wants_touches());
 }
 
+std::vector<Shot> RevisitedRun::shown_shots(std::int64_t after) const {
+    std::vector<Shot> shots;
+    for (const Shot& shot : film_.shots()) {
+        const std::int64_t step = shown(shot.step);
+        if (step > (shots.empty() ? after : shots.back().step)) shots.push_back({step, shot.segment});
+    }
+    return shots;
+}
+
 bool RevisitedRun::is_brought_back(std::int64_t step) const {
     return reachable_.place_of(step, wants_touches()) == ReachableMoments::Place::checkpoints;
 }
@@ -182,7 +172,8 @@ std::string RevisitedRun::why_not_all() const {
 
 Supply RevisitedRun::supply() const {
     const bool any = reachable_.brings_all_back();
-    return {any, any || run_.supply().contacts, run_.supply().measures, run_.supply().orientations};
+    const FrameSupply kept = run_.frames().supply();
+    return {any, any || kept.contacts, kept.measures, kept.orientations};
 }
 
 Span RevisitedRun::span() const {

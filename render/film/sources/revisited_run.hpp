@@ -17,6 +17,7 @@
 #include "engine/run/driver/agenda.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/film/sampling/sampler.hpp"
+#include "render/film/sources/bed_periods.hpp"
 #include "render/film/sources/recorded_run.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -46,16 +47,14 @@ class FilmOfRun {
 
   private:
     void read_film_times();
-    void read_periods();
     // Those of the shots at which the bed looks alike (BedPeriods).
     std::vector<Shot> with_bed(const std::vector<Shot>& shots) const;
 
     const RecordedRun& run_;
     bool same_ = true;  // the run has a film of its own, with the same schedule
     std::int64_t last_ = 0;
-    std::set<std::int64_t> filmed_;        // steps of the run's own film
-    std::vector<double> steps_, periods_;  // steps and bed periods of the rows of measures.csv
-    std::vector<double> differences_;      // m, period_difference_m of these rows
+    std::set<std::int64_t> filmed_;  // steps of the run's own film
+    MeasuredPeriods measured_;
 };
 
 // A run that lies on disk, as a source of any of its moments. The run kept some of them (RecordedRun). The
@@ -80,6 +79,8 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     bool has(std::int64_t step) const;
     // The step that is shown in a picture of `step`.
     std::int64_t shown(std::int64_t step) const;
+    // The film's shots after a step, each with the step that is shown. Each step is shown once.
+    std::vector<Shot> shown_shots(std::int64_t after = -1) const;
     bool has_all(const Pictures& pictures) const;
     // Whether the step would be brought back.
     bool is_brought_back(std::int64_t step) const;
@@ -97,7 +98,7 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     const FilmedScene& scene() const override { return run_.scene(); }
     Supply supply() const override;
     Span span() const override;
-    const FrameArchive* archive() const override { return run_.archive(); }
+    const FrameArchive* archive() const override { return &run_.frames(); }
     std::vector<Frame> moments(const Pictures& pictures) const override;
     void start(const Pictures& pictures) override;
     // Starts with shots by their steps. Each step is shown itself, or by the nearest kept one.

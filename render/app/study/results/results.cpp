@@ -35,13 +35,6 @@ void read_record(const std::filesystem::path& path, MemberResult& result) {
     result.has_film = frames.is_number() && frames.get<double>() > 0;
 }
 
-std::vector<double> column_of(const MeasureTable& table, const std::string& name) {
-    const auto& columns = table.columns();
-    const auto found = std::find(columns.begin(), columns.end(), name);
-    if (found == columns.end()) return {};
-    return table.values(static_cast<std::size_t>(found - columns.begin()), 0, table.rows());
-}
-
 }  // namespace
 
 std::string to_string(State state) {
@@ -74,9 +67,9 @@ MemberResult read_result(const std::filesystem::path& folder, const std::vector<
         result.state = State::incomplete;
         return result;
     }
-    const std::vector<double> times = column_of(*table, "time_s");
+    const std::vector<double> times = table->all("time_s");
     for (std::size_t i = 0; i < measures.size(); ++i) {
-        const std::vector<double> values = column_of(*table, measures[i].column);
+        const std::vector<double> values = table->all(measures[i].column);
         if (!times.empty() && values.size() == times.size())
             result.values[i] = reduce(measures[i].reduction, times, values);
     }
