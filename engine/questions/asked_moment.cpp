@@ -8,7 +8,6 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
-#include "engine/files/frames/open_frames.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/run/driver/run_files.hpp"
@@ -111,7 +110,10 @@ std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
                         "TIME, or run the scene again with its film and output.film_moments = true",
                         run_.frames().path().string(), kFilmMoments));
     const std::int64_t frame = *request.frame;
-    const auto pictures = open_frames(file, {.format = "trajectory"});
+    const bool with_keys = false;
+    const KeptList kept(run_.frames(), run_.scene(), run_.clock(), with_keys);
+    const FrameArchive* const pictures = kept.film();
+    if (pictures == nullptr) throw UserError(kept.faults_of_film().front().what);
     const std::vector<std::string> damage = pictures->damage();
     std::int64_t shown = 0;
     for (std::size_t k = 0; k < pictures->moments().size(); ++k) {

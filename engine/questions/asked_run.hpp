@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/run_archive.hpp"
 #include "engine/run/replay/replay.hpp"
+#include "engine/run/stored/kept_list.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -86,8 +86,8 @@ class RestoredCheckpoint final : public AskedRun {
 
 class ReachableMoments {
   public:
-    // `threads` is the number of the engine's threads; with 0 nothing is brought back. Throws UserError
-    // when film_moments.nc belongs to another run. The run must outlive this object.
+    // `threads` is the number of the engine's threads; with 0 nothing is brought back. The run must outlive
+    // this object.
     ReachableMoments(const AskedRun& run, int threads);
 
     enum class Place { trajectory, film_moments, checkpoints, nowhere };
@@ -108,19 +108,20 @@ class ReachableMoments {
     // Whether a checkpoint leads to the run's first moment, and so to all of them.
     bool brings_all_back() const;
     // The step of the nearest kept moment.
-    std::int64_t nearest_kept(std::int64_t step, bool touches) const;
+    std::int64_t nearest_kept(std::int64_t step, bool touches) const {
+        return kept_->nearest_step(step, touches);
+    }
+    // To be called where the run has left out moments since.
+    void look_again() { kept_.emplace(run_.frames(), run_.scene(), run_.clock(), false); }
     // What was found damaged or wrong so far.
     const std::vector<std::string>& news() const { return news_; }
 
   private:
-    void read_film_moments();
-    void check_film_moments() const;
-    std::optional<std::size_t> in_trajectory(std::int64_t step) const;
-    Frame film_moment(std::size_t index) const;
+    // Index in the kept moments from which that step can be had, with its contacts if they are wanted.
+    std::optional<std::size_t> kept_at(std::int64_t step, bool touches) const;
 
     const AskedRun& run_;
-    std::unique_ptr<FrameArchive> film_moments_;
-    std::map<std::int64_t, std::size_t> filmed_;  // place in film_moments.nc, by step
+    std::optional<KeptList> kept_;
     std::optional<Replayer> replayer_;
     bool proven_ = false;  // whether prove() has compared a replay with a kept moment
     std::vector<std::string> news_;

@@ -8,8 +8,9 @@
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/resume/kept_files.hpp"
+#include "engine/run/stored/kept_list.hpp"
 #include "render/film/sampling/film_frames.hpp"
-#include "render/page/bed/all_moments.hpp"
+#include "render/page/bed/film_colours.hpp"
 #include "render/page/embed.hpp"
 #include "render/page/page_parts.hpp"
 
@@ -43,17 +44,29 @@ std::vector<std::uint8_t> packed_table(const fs::path& file) {
 }
 
 // The key moments of the run, and some more when the run kept contacts at all moments.
-std::vector<std::size_t> key_moments_of(const AllMoments& all) {
+std::vector<std::size_t> key_moments_of(const KeptList& all) {
     std::vector<std::size_t> known, keys;
     for (std::size_t k = 0; k < all.moments().size(); ++k)
-        if (all.has_touches(k)) known.push_back(k);
+        if (all.has_contacts_of(k)) known.push_back(k);
     const std::size_t most =
         std::min(most_chosen_keys,
                  most_chosen_pairs / pairs_a_grain / std::max<std::size_t>(1, all.first_whole().size()));
     for (std::size_t k = 0; k < known.size(); ++k)
-        if (all.is_key(known[k]) || k * most / known.size() != (k + 1) * most / known.size())
+        if (all.place_of(known[k]).key || k * most / known.size() != (k + 1) * most / known.size())
             keys.push_back(known[k]);
     return keys;
+}
+
+// What the page lacks, because a file of moments beside the trajectory is damaged or of another run.
+std::vector<std::string> news_of(const KeptList& all) {
+    std::vector<std::string> news;
+    for (const KeptList::Fault& fault : all.faults_of_film())
+        news.push_back(fmt::format("{}; {} not on the page", fault.what,
+                                   fault.whole ? "its moments are" : "this moment is"));
+    for (const KeptList::Fault& fault : all.faults_of_keys())
+        news.push_back(fmt::format("{}; the forces of {}key moments are not on the page", fault.what,
+                                   fault.whole ? "" : "the last "));
+    return news;
 }
 
 }  // namespace
@@ -115,13 +128,15 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
                    : nullptr;
     };
     try {
-        const AllMoments all(run_.run->frames(), run_.contacts);
+        const RunArchive& run = run_.run->frames();
+        const bool with_keys = true;
+        const KeptList all(run, *run.scene(), run.clock(), with_keys);
         const std::unique_ptr<FilmColours> film = coloured(all);
         BedContacts contacts;
         contacts.film = film.get();
         contacts.touches = [&all](std::size_t index) { return all.touches(index); };
         contacts.keys = key_moments_of(all);
-        bed_news_ = all.news();
+        bed_news_ = news_of(all);
         bed_ = bed_frames(all, most_bytes, progress, contacts);
     } catch (const UserError& problem) {
         // A frame in a file beside the trajectory is damaged, so only the trajectory is used.

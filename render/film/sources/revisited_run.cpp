@@ -116,11 +116,14 @@ RevisitedRun::RevisitedRun(const std::filesystem::path& folder, const Assignment
       replay_(replay),
       reachable_(run_.record(), replay ? engine_threads(run_.scene(), sharers) : 0),
       film_(run_, sets) {
-    if (!reachable_.brings_all_back()) run_.do_without_others();
+    if (reachable_.brings_all_back()) return;
+    run_.do_without_others();
+    reachable_.look_again();
 }
 
 void RevisitedRun::leave_out_damaged() {
     run_.leave_out_damaged(reachable_.brings_all_back());
+    reachable_.look_again();
 }
 
 bool RevisitedRun::wants_touches() const {

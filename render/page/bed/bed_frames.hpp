@@ -4,7 +4,7 @@
 //   ids, N int32; species, N uint16; radii in m, N float32;
 //   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the
 //   moment before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence; and, where the
-//   film colours its grains by a quantity, N bytes of that (all_moments.hpp).
+//   film colours its grains by a quantity, N bytes of that (film_colours.hpp).
 // A contact number of 255 is not known. Where a grain is not present, its speed and presence are 0, and its
 // place repeats the one before. render/page/html/bed_frames.js reads them.
 #pragma once
@@ -18,7 +18,7 @@
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
-#include "render/page/bed/all_moments.hpp"
+#include "render/page/bed/film_colours.hpp"
 #include "render/page/embed.hpp"
 
 namespace grainreel {

@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace test;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using Words = std::vector<std::string>;
@@ -175,6 +176,52 @@ TEST_F(Belief, ADamagedFrameIsBroughtBackAndSaidSo) {
     cut("trajectory.nc", 0.99);
     EXPECT_THAT(ask(question).err,
                 HasSubstr("warning: run/trajectory.nc: frame 5 (the first is 0) is not whole"));
+}
+
+// The other run differs only in the seed, so its film has pictures at the same moments.
+TEST_F(Belief, FilmMomentsOfAnotherRunAreNotUsed) {
+    for (const char* folder : {"run", "other"}) {
+        const Ended ended =
+            run({"movie", "fifty.toml", "--no-report", "--duration", "0.1 s", "--size", "320x180", "--out",
+                 folder, "--seed", folder == std::string("run") ? "1" : "7", "--set",
+                 "output.film_moments=true"});
+        ASSERT_EQ(ended.status, 0) << ended.err;
+    }
+    ASSERT_EQ(ask({"--frame", "3"}).status, 0);
+    fs::copy_file(here / "other/film_moments.nc", here / "run/film_moments.nc",
+                  fs::copy_options::overwrite_existing);
+    const Ended asked = ask({"--frame", "3"});
+    EXPECT_EQ(asked.status, 2) << asked.out;
+    EXPECT_THAT(asked.err, AllOf(HasSubstr("run/film_moments.nc: "), HasSubstr("they are of two runs")));
+    const Ended drawn = run({"render", "run", "--at", "0.03", "--out", "still.png"});
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_THAT(drawn.err, HasSubstr("they are of two runs; it is not used"));
+}
+
+// Both runs start from a table of grains. A checkpoint does not say from which, so these seem to be the
+// run's own.
+TEST_F(Belief, AReplayToOtherGrainsThanWereKeptIsRefused) {
+    make("first");
+    make("second", {"--seed", "7"});
+    write_text(here / "started.toml",
+               std::string(small_scene_text) + "[start]\nmethod = \"file\"\nfile = \"grains.csv\"\n");
+    for (const char* folder : {"first", "second"}) {
+        fs::copy_file(here / folder / "final.csv", here / "grains.csv", fs::copy_options::overwrite_existing);
+        const std::string out = folder == std::string("first") ? "run" : "other";
+        const Ended ended = run({"movie", "started.toml", "--no-film", "--no-report", "--duration", "0.1 s",
+                                 "--set", "output.trajectory_interval=20 ms", "--out", out});
+        ASSERT_EQ(ended.status, 0) << ended.err;
+    }
+    const Words question = {"--at", "0.0731 s", "--grain", "7"};
+    ASSERT_EQ(ask(question).status, 0);
+    fs::remove_all(here / "run/checkpoints");
+    fs::remove(here / "run/checkpoint.grs");
+    fs::copy(here / "other/checkpoints", here / "run/checkpoints");
+    for (const auto& entry : fs::directory_iterator(here / "run/checkpoints"))
+        if (entry.path().filename() != "000000000000.grs") fs::remove(entry.path());
+    const Ended ended = ask(question);
+    EXPECT_EQ(ended.status, 2) << ended.out;
+    EXPECT_THAT(ended.err, HasSubstr("it has other grains than in trajectory.nc"));
 }
 
 // A kept moment of a run with grains glued to its floor is restored as it was.
