@@ -13,6 +13,9 @@ inline constexpr const char* kFilmMoments = "film_moments.nc";
 // that of contacts.nc. There `frame` counts the frames of key_moments.nc.
 inline constexpr const char *kKeyMoments = "key_moments.nc", *kKeyContacts = "key_contacts.nc";
 
+// A file in the folder of an imported run that says what was guessed and derived, a line for each.
+inline constexpr const char* kImportNews = "import_news.txt";
+
 // The page of a run.
 inline constexpr const char* kPageName = "report.html";
 

@@ -11,6 +11,7 @@
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/state/container_faces.hpp"
+#include "engine/run/stored/stored_run.hpp"
 
 namespace grainreel::v1 {
 namespace {
@@ -90,9 +91,9 @@ class Adapted final : public OwnReader {
 
 FrameFile::FrameFile(const std::filesystem::path& file, const ReadOptions& options)
     : impl_(std::make_unique<Impl>()) {
-    FrameRequest request;
+    StoredRunRequest request;
     request.reading = reading_of(options);
-    impl_->archive = told([&] { return open_frames(file, request); });
+    impl_->archive = told([&] { return std::make_unique<StoredRun>(file, request); });
 }
 FrameFile::~FrameFile() = default;
 FrameFile::FrameFile(FrameFile&&) noexcept = default;
@@ -132,7 +133,7 @@ bool FrameFile::has_velocities() const {
 }
 
 std::vector<std::string> FrameFile::news() const {
-    return impl_->archive->news();
+    return impl_->archive->all_news();
 }
 
 void FrameFile::write(const std::filesystem::path& file, const std::string& format) const {

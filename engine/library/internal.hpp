@@ -21,6 +21,7 @@
 #include "engine/frame.hpp"
 #include "engine/laws/law_kernel.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/run/stored/stored_run.hpp"
 #include "engine/scene/scene.hpp"
 #include "grainreel/contact_law.hpp"
 #include "grainreel/error.hpp"
@@ -83,7 +84,7 @@ struct Scene::Impl {
 };
 
 struct FrameFile::Impl {
-    std::unique_ptr<FrameArchive> archive;
+    std::unique_ptr<StoredRun> archive;
 };
 
 // A caller's contact law in the form that the step loop can run: a LawKernel that calls the law for one

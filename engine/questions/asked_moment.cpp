@@ -10,8 +10,6 @@
 #include "engine/base/numbers.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/questions/snapshot.hpp"
-#include "engine/run/driver/run_files.hpp"
-#include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -40,47 +38,10 @@ std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Fram
     return all;
 }
 
-}  // namespace
-
-// The last time that can be asked for. A run that was broken off has checkpoints after its last kept
-// moment.
-double MomentFinder::last_time() const {
-    const std::vector<KeptCheckpoint> kept = run_.checkpoints();
-    const double last = run_.to();
-    return kept.empty() ? last : std::max(last, run_.clock().time(kept.back().step));
-}
-
-AskedMoment MomentFinder::find(const MomentRequest& request) const {
-    const Clock& clock = run_.clock();
-    const std::vector<Frame>& moments = run_.moments();
-    const auto named = [&](double time, const char* option) {
-        const double to = last_time(), hair = 1e-9 + 1e-9 * std::abs(time);
-        // A run of 8 s ends with its last whole step, which may lie a little before.
-        if (time > to && time <= to + clock.step * (1 + 1e-9)) time = to;
-        run_.frames().check_time(option, time, to, hair);
-        AskedMoment asked;
-        asked.nearest = run_.frames().nearest(time);
-        asked.step = clock.step > 0 ? std::llround(time / clock.step) : moments[asked.nearest].step;
-        if (moments[asked.nearest].step == asked.step) asked.kept = asked.nearest;
-        asked.time = clock.step > 0 ? clock.time(asked.step) : moments[asked.nearest].time;
-        return asked;
-    };
-    if (request.at) return named(*request.at, request.at_option);
-    if (request.frame && run_.frames().scene() == nullptr)
-        return kept_frame(*request.frame, run_.frames().path().string());
-    if (request.frame && request.frame_of_file) return kept_frame(*request.frame, run_.scene().title);
-    if (request.frame) return named(clock.time(step_of_frame(request)), "--frame");
-    if (request.cycle) {
-        if (!run_.scene().drive.present) throw UserError("--cycle: the run has no drive; give --at TIME");
-        return named(clock.time(clock.step_at(*request.cycle)), "--cycle");
-    }
-    return last();
-}
-
 // Finds a kept moment by its frame number. An imported file of frames has no film, so its own frames are
 // counted.
-AskedMoment MomentFinder::kept_frame(std::int64_t frame, const std::string& name) const {
-    const std::vector<Frame>& moments = run_.moments();
+AskedMoment kept_frame(const StoredRun& run, std::int64_t frame, const std::string& name) {
+    const std::vector<Frame>& moments = run.moments();
     const auto count = static_cast<std::int64_t>(moments.size());
     if (frame < 0 || frame >= count)
         throw UserError(
@@ -90,30 +51,28 @@ AskedMoment MomentFinder::kept_frame(std::int64_t frame, const std::string& name
 }
 
 // The end of a run is in its last checkpoint; it need not be among the kept moments.
-AskedMoment MomentFinder::last() const {
-    const std::vector<Frame>& moments = run_.moments();
-    const std::vector<KeptCheckpoint> kept = run_.checkpoints();
+AskedMoment last_moment(const StoredRun& run) {
+    const std::vector<Frame>& moments = run.moments();
+    const std::vector<KeptCheckpoint>& kept = run.checkpoints();
     const std::size_t back = moments.size() - 1;
     if (!kept.empty() && kept.back().step > moments[back].step)
-        return {kept.back().step, run_.clock().time(kept.back().step), std::nullopt, back, true};
+        return {kept.back().step, run.clock().time(kept.back().step), std::nullopt, back, true};
     return {moments[back].step, moments[back].time, back, back, true};
 }
 
 // The step that a frame of the run's film shows. The run kept one moment for each picture. A picture that is
 // held for a caption counts once for each frame in which the film shows it.
-std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
-    const std::filesystem::path file = run_.frames().path() / kFilmMoments;
+std::int64_t step_of_frame(const StoredRun& run, const MomentRequest& request) {
+    const std::filesystem::path file = run.path() / kFilmMoments;
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
         throw UserError(
             fmt::format("--frame: {} has no {}, so that the moments of its film are not known; give --at "
                         "TIME, or run the scene again with its film and output.film_moments = true",
-                        run_.frames().path().string(), kFilmMoments));
+                        run.path().string(), kFilmMoments));
     const std::int64_t frame = *request.frame;
-    const bool with_keys = false;
-    const KeptList kept(run_.frames(), run_.scene(), run_.clock(), with_keys);
-    const FrameArchive* const pictures = kept.film();
-    if (pictures == nullptr) throw UserError(kept.faults_of_film().front().what);
+    const FrameArchive* const pictures = run.kept().film();
+    if (pictures == nullptr) throw UserError(run.kept().faults_of_film().front().what);
     const std::vector<std::string> damage = pictures->damage();
     std::int64_t shown = 0;
     for (std::size_t k = 0; k < pictures->moments().size(); ++k) {
@@ -127,11 +86,86 @@ std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
         fmt::format("--frame: the film has the frames 0 to {}, but {} is asked for", shown - 1, frame));
 }
 
-Snapshot MomentFinder::kept(std::size_t index) const {
-    Snapshot snapshot{run_.scene(), run_.frame(index), run_.frames().has_contacts_of(index),
-                      run_.frames().first()};
-    snapshot.measured = run_.measured_near(index);
-    const FrameSupply supply = run_.frames().supply();
+// The snapshot of a restored run, without accelerations.
+Snapshot snapshot_of(const Simulation& simulation, const StoredRun& run) {
+    Snapshot snapshot{run.known_scene(), simulation.frame(), true, run.first()};
+    snapshot.frame.touches = touches_of(simulation);
+    snapshot.measured =
+        MeasuredRow{snapshot.frame.time, simulation.measured(), simulation.measures().values()};
+    snapshot.forces.emplace();
+    snapshot.forces->contacts = simulation.contact_forces();
+    return snapshot;
+}
+
+// Adds the displacements over the last period, where the run kept the moment a period earlier.
+void add_kept_ways(const StoredRun& run, Frame& frame) {
+    const Clock& clock = run.clock();
+    if (!run.known_scene().drive.present || clock.step <= 0) return;
+    const std::int64_t before = clock.step_at(clock.cycles(frame.step) - run.periods());
+    const std::optional<std::size_t> index = run.index_near(clock.time(before));
+    if (before >= run.moments().front().step && index)
+        set_displacement(frame, run.grains(*index), run.periods(),
+                         period_of_depth(run.known_scene().container));
+}
+
+void check_can_bring_back(const StoredRun& run, const AskedMoment& moment) {
+    if (run.brings_back(moment.step)) return;
+    const bool none = run.checkpoints().empty();
+    if (none && run.kind() == StoredRun::Kind::elsewhere)
+        throw UserError(
+            fmt::format("{}: another engine computed the run, so that no moment can be brought back; "
+                        "ask for a kept moment with --no-replay",
+                        run.path().string()));
+    throw UserError(fmt::format(
+        "{}: has no checkpoint{}, so that {} brought back; ask for a kept moment with --no-replay, or "
+        "run the scene again with output.checkpoints",
+        run.path().string(), none ? "s" : fmt::format(" of {:.6g} s or before", moment.time),
+        none ? "no moment can be" : "this moment cannot be"));
+}
+
+}  // namespace
+
+AskedMoment find_moment(const StoredRun& run, const MomentRequest& request) {
+    const Clock& clock = run.clock();
+    const std::vector<Frame>& moments = run.moments();
+    const auto named = [&](double time, const char* option) {
+        const double to = std::max(run.to(), clock.step > 0 ? clock.time(run.last_step()) : run.to()),
+                     hair = 1e-9 + 1e-9 * std::abs(time);
+        // A run of 8 s ends with its last whole step, which may lie a little before.
+        if (time > to && time <= to + clock.step * (1 + 1e-9)) time = to;
+        run.check_time(option, time, to, hair);
+        AskedMoment asked;
+        asked.nearest = run.nearest(time);
+        asked.step = clock.step > 0 ? std::llround(time / clock.step) : moments[asked.nearest].step;
+        if (moments[asked.nearest].step == asked.step) asked.kept = asked.nearest;
+        asked.time = clock.step > 0 ? clock.time(asked.step) : moments[asked.nearest].time;
+        return asked;
+    };
+    if (request.at) return named(*request.at, request.at_option);
+    if (request.frame && run.scene() == nullptr) return kept_frame(run, *request.frame, run.path().string());
+    if (request.frame && request.frame_of_file)
+        return kept_frame(run, *request.frame, run.known_scene().title);
+    if (request.frame) return named(clock.time(step_of_frame(run, request)), "--frame");
+    if (request.cycle) {
+        if (!run.known_scene().drive.present)
+            throw UserError("--cycle: the run has no drive; give --at TIME");
+        return named(clock.time(clock.step_at(*request.cycle)), "--cycle");
+    }
+    return last_moment(run);
+}
+
+bool has_checkpoint(const StoredRun& run, const AskedMoment& moment) {
+    const std::vector<KeptCheckpoint>& kept = run.checkpoints();
+    return std::any_of(kept.begin(), kept.end(), [&](const auto& one) { return one.step == moment.step; });
+}
+
+Snapshot kept_snapshot(const StoredRun& run, std::size_t index, bool with_ways) {
+    Snapshot snapshot{run.known_scene(), run.grains(index), run.has_contacts_of(index), run.first()};
+    if (std::optional<std::vector<Touch>> touches = run.touches(index))
+        snapshot.frame.touches = std::move(*touches);
+    if (with_ways) add_kept_ways(run, snapshot.frame);
+    snapshot.measured = run.measured_near(index);
+    const FrameSupply supply = run.supply();
     snapshot.spins = supply.spins;
     snapshot.velocities = supply.velocities;
     if (!supply.velocities)
@@ -140,116 +174,74 @@ Snapshot MomentFinder::kept(std::size_t index) const {
     return snapshot;
 }
 
-bool MomentFinder::is_checkpoint(const AskedMoment& moment) const {
-    const std::vector<KeptCheckpoint> kept = run_.checkpoints();
-    return std::any_of(kept.begin(), kept.end(), [&](const auto& one) { return one.step == moment.step; });
-}
-
-bool MomentFinder::can_bring_back(const AskedMoment& moment) const {
-    const std::vector<KeptCheckpoint> kept = run_.checkpoints();
-    return !kept.empty() && kept.front().step <= moment.step;
-}
-
-namespace {
-
-// The snapshot of a restored run, without accelerations.
-Snapshot snapshot_of(const Simulation& run, const AskedRun& asked) {
-    Snapshot snapshot{asked.scene(), run.frame(), true, asked.frames().first()};
-    for (const SavedContact& one : run.contacts())
-        snapshot.frame.touches.push_back({one.first, one.second, one.normal});
-    snapshot.measured = MeasuredRow{snapshot.frame.time, run.measured(), run.measures().values()};
-    snapshot.forces.emplace();
-    snapshot.forces->contacts = run.contact_forces();
+Snapshot brought_back_snapshot(StoredRun& run, const AskedMoment& moment, const ReplayWatcher& watcher) {
+    check_can_bring_back(run, moment);
+    Simulation& simulation = run.brought_back(moment.step, watcher);
+    Snapshot snapshot = snapshot_of(simulation, run);
+    simulation.advance(moment.step + 1);
+    snapshot.forces->acceleration =
+        accelerations(run.known_scene(), snapshot.frame, simulation.frame(), run.clock().step);
     return snapshot;
 }
 
-}  // namespace
-
-void MomentFinder::check_can_bring_back(const AskedMoment& moment) const {
-    if (can_bring_back(moment)) return;
-    const bool none = run_.checkpoints().empty();
-    if (none && is_of_another_engine(run_.frames().path()))
-        throw UserError(
-            fmt::format("{}: another engine computed the run, so that no moment can be brought back; "
-                        "ask for a kept moment with --no-replay",
-                        run_.frames().path().string()));
-    throw UserError(fmt::format(
-        "{}: has no checkpoint{}, so that {} brought back; ask for a kept moment with --no-replay, or "
-        "run the scene again with output.checkpoints",
-        run_.frames().path().string(), none ? "s" : fmt::format(" of {:.6g} s or before", moment.time),
-        none ? "no moment can be" : "this moment cannot be"));
-}
-
-Snapshot MomentFinder::brought_back(const AskedMoment& moment, const ReplayWatcher& watcher) {
-    check_can_bring_back(moment);
-    const Scene& scene = run_.scene();
-    Simulation run =
-        replayed(run_.frames().path(), run_.checkpoints(), moment.step, scene.run.threads, watcher);
-    Snapshot snapshot = snapshot_of(run, run_);
-    run.advance(moment.step + 1);
-    snapshot.forces->acceleration = accelerations(scene, snapshot.frame, run.frame(), run_.clock().step);
-    return snapshot;
-}
-
-Snapshot MomentFinder::brought_back_with_ways(const AskedMoment& moment, const ReplayWatcher& watcher) {
-    const Scene& scene = run_.scene();
+Snapshot brought_back_with_ways(StoredRun& run, const AskedMoment& moment, const ReplayWatcher& watcher) {
+    const Scene& scene = run.known_scene();
     if (!scene.drive.present)
         throw UserError("the run has no drive, so that there are no ways over a period of it");
-    const Clock& clock = run_.clock();
-    const int periods = run_.frames().periods();
+    const Clock& clock = run.clock();
+    const int periods = run.periods();
     const AskedMoment before{clock.step_at(clock.cycles(moment.step) - periods),
                              clock.time(moment.step) - periods / scene.drive.highest_frequency(),
                              {},
                              0};
-    if (before.step < run_.moments().front().step || !can_bring_back(before))
+    if (before.step < run.moments().front().step || !run.brings_back(before.step))
         throw UserError(fmt::format(
             "ways over a period need the moment {} before {:.6g} s, and the run does not reach back so far",
             periods == 1 ? "one period" : fmt::format("{} periods", periods), moment.time));
-    const Frame then =
-        replayed(run_.frames().path(), run_.checkpoints(), before.step, scene.run.threads, watcher).frame();
-    Snapshot snapshot = brought_back(moment, watcher);
+    const Frame then = run.brought_back(before.step, watcher).frame();
+    Snapshot snapshot = brought_back_snapshot(run, moment, watcher);
     set_displacement(snapshot.frame, then, periods, period_of_depth(scene.container));
     return snapshot;
 }
 
-void MomentFinder::over_periods(const AskedMoment& moment, double periods, bool replay,
-                                const ReplayWatcher& watcher, const std::function<void(Snapshot)>& see) {
-    const Clock& clock = run_.clock();
-    if (!run_.scene().drive.present) throw UserError("--average: the run has no drive, and so no periods");
+void see_periods(StoredRun& run, const AskedMoment& moment, double periods, bool replay,
+                 const ReplayWatcher& watcher, const std::function<void(Snapshot)>& see) {
+    const Clock& clock = run.clock();
+    if (!run.known_scene().drive.present)
+        throw UserError("--average: the run has no drive, and so no periods");
     const double end = clock.cycles(moment.step);
     const std::int64_t from = clock.step_at(end - periods);
-    if (clock.time(from) < run_.from() - 1e-9)
+    if (clock.time(from) < run.from() - 1e-9)
         throw UserError(
             fmt::format("--average: {} periods before {:.6g} s lie before the run's first moment, {:.6g} s; "
                         "ask for fewer",
-                        periods, moment.time, run_.from()));
+                        periods, moment.time, run.from()));
     if (!replay) {
-        for (std::size_t k = 0; k < run_.moments().size(); ++k)
-            if (const std::int64_t step = run_.moments()[k].step; step > from && step <= moment.step)
-                see(kept(k));
+        for (std::size_t k = 0; k < run.moments().size(); ++k)
+            if (const std::int64_t step = run.moments()[k].step; step > from && step <= moment.step)
+                see(kept_snapshot(run, k));
         return;
     }
     const auto count = static_cast<std::int64_t>(std::ceil(periods * kMomentsAPeriod));
     const auto step_of = [&](std::int64_t k) {
         return clock.step_at(end - static_cast<double>(count - 1 - k) / kMomentsAPeriod);
     };
-    Simulation run =
-        replayed(run_.frames().path(), run_.checkpoints(), step_of(0), run_.scene().run.threads, watcher);
+    Simulation& simulation = run.brought_back(step_of(0), watcher);
     for (std::int64_t k = 0; k < count; ++k) {
-        run.advance(step_of(k));
-        see(snapshot_of(run, run_));
+        simulation.advance(step_of(k));
+        see(snapshot_of(simulation, run));
         if (!watcher(static_cast<double>(k + 1) / static_cast<double>(count)))
             throw RunError("stopped before the moments were reached");
     }
 }
 
-void MomentFinder::at_every(double interval, const ReplayWatcher& watcher,
-                            const std::function<void(const Snapshot&)>& see) {
+void see_every(StoredRun& run, double interval, const ReplayWatcher& watcher,
+               const std::function<void(const Snapshot&)>& see) {
     constexpr double most = 1e6, rounding = 1e-9;
-    const Clock& clock = run_.clock();
-    const std::int64_t last_step = run_.moments().back().step;
-    const double first = std::ceil(run_.from() / interval - rounding),
-                 count = std::floor(run_.to() / interval + rounding) - first + 1;
+    const Clock& clock = run.clock();
+    const std::int64_t last_step = run.moments().back().step;
+    const double first = std::ceil(run.from() / interval - rounding),
+                 count = std::floor(run.to() / interval + rounding) - first + 1;
     if (interval < clock.step)
         throw UserError(fmt::format(
             "--every: is shorter than a step of the run, {:.4g} s; take a longer time", clock.step));
@@ -264,12 +256,11 @@ void MomentFinder::at_every(double interval, const ReplayWatcher& watcher,
     AskedMoment begin;
     begin.step = step_of(0);
     begin.time = clock.time(begin.step);
-    check_can_bring_back(begin);
-    Simulation run =
-        replayed(run_.frames().path(), run_.checkpoints(), begin.step, run_.scene().run.threads, watcher);
+    check_can_bring_back(run, begin);
+    Simulation& simulation = run.brought_back(begin.step, watcher);
     for (double k = 0; k < count; ++k) {
-        run.advance(step_of(k));
-        see(snapshot_of(run, run_));
+        simulation.advance(step_of(k));
+        see(snapshot_of(simulation, run));
         if (!watcher((k + 1) / count)) throw RunError("stopped before the moments were reached");
     }
 }

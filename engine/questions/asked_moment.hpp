@@ -1,5 +1,5 @@
-// The moment that a question about a run means: one that the run kept in a file, or one that is brought back,
-// that is, computed again from the last checkpoint before it.
+// The moment that a question about a run means, and its snapshot: of a moment that the run kept in a file, or
+// of one that is brought back, that is, computed again from the last checkpoint before it.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/questions/asked_run.hpp"
 #include "engine/questions/snapshot.hpp"
-#include "engine/run/replay/replay.hpp"
+#include "engine/run/stored/stored_run.hpp"
 
 namespace grainreel {
 
@@ -34,46 +33,33 @@ struct AskedMoment {
     bool last = false;                // whether it is the run's last moment
 };
 
-class MomentFinder {
-  public:
-    explicit MomentFinder(const AskedRun& run) : run_(run) {}
+// Finds the moment. Throws UserError, with the option's name, for a moment that the run does not have.
+AskedMoment find_moment(const StoredRun& run, const MomentRequest& request);
+// Whether the moment has a checkpoint of its own, so that no steps need to be computed.
+bool has_checkpoint(const StoredRun& run, const AskedMoment& moment);
 
-    // Finds the moment. Throws UserError, with the option's name, for a moment that the run does not have.
-    AskedMoment find(const MomentRequest& request) const;
-    // The snapshot of a kept moment.
-    Snapshot kept(std::size_t index) const;
-    // Brings a moment back from the checkpoints, with its forces. Throws UserError where no checkpoint
-    // leads there.
-    Snapshot brought_back(const AskedMoment& moment, const ReplayWatcher& watcher);
-    // Does the same and adds how far grains moved in the last period of the drive (Frame::displacement), as
-    // the film counts it. Throws UserError also where the run has no drive, or does not reach back so far.
-    Snapshot brought_back_with_ways(const AskedMoment& moment, const ReplayWatcher& watcher);
-    // Calls `see` with moments of the last `periods` periods of the drive before `moment`, and with `moment`
-    // itself. With `replay` these are kMomentsAPeriod moments for each period, brought back; without it, the
-    // moments that the run kept in this time. Throws UserError without a drive, and where the run does not
-    // reach back so far.
-    void over_periods(const AskedMoment& moment, double periods, bool replay, const ReplayWatcher& watcher,
-                      const std::function<void(Snapshot)>& see);
-    static constexpr int kMomentsAPeriod = 20;
-    // Brings back the moments at the multiples of a time (s), from the run's first moment to its last, and
-    // calls `see` with each. The run is computed once more from its first checkpoint. Throws UserError where
-    // no checkpoint leads there, where the time is shorter than a step, and where there are more than a
-    // million moments.
-    void at_every(double interval, const ReplayWatcher& watcher,
-                  const std::function<void(const Snapshot&)>& see);
-    // Whether there is a checkpoint of the moment, or before it.
-    bool can_bring_back(const AskedMoment& moment) const;
-    // Whether the moment has a checkpoint of its own, so that no steps need to be computed.
-    bool is_checkpoint(const AskedMoment& moment) const;
+// The snapshot of a kept moment. with_ways: with the displacements over the last period of the drive, if the
+// run kept the moment a period earlier too.
+Snapshot kept_snapshot(const StoredRun& run, std::size_t index, bool with_ways = false);
+// Brings a moment back from the checkpoints, with its forces. Throws UserError where no checkpoint leads
+// there.
+Snapshot brought_back_snapshot(StoredRun& run, const AskedMoment& moment, const ReplayWatcher& watcher);
+// Does the same and adds how far grains moved in the last period of the drive (Frame::displacement), as the
+// film counts it. Throws UserError also where the run has no drive, or does not reach back so far.
+Snapshot brought_back_with_ways(StoredRun& run, const AskedMoment& moment, const ReplayWatcher& watcher);
 
-  private:
-    AskedMoment kept_frame(std::int64_t frame, const std::string& name) const;
-    void check_can_bring_back(const AskedMoment& moment) const;
-    std::int64_t step_of_frame(const MomentRequest& request) const;
-    double last_time() const;
-    AskedMoment last() const;
-
-    const AskedRun& run_;
-};
+// Calls `see` with moments of the last `periods` periods of the drive before `moment`, and with `moment`
+// itself. With `replay` these are kMomentsAPeriod moments for each period, brought back; without it, the
+// moments that the run kept in this time. Throws UserError without a drive, and where the run does not reach
+// back so far.
+void see_periods(StoredRun& run, const AskedMoment& moment, double periods, bool replay,
+                 const ReplayWatcher& watcher, const std::function<void(Snapshot)>& see);
+constexpr int kMomentsAPeriod = 20;
+// Brings back the moments at the multiples of a time (s), from the run's first moment to its last, and calls
+// `see` with each. The run is computed once more from its first checkpoint. Throws UserError where no
+// checkpoint leads there, where the time is shorter than a step, and where there are more than a million
+// moments.
+void see_every(StoredRun& run, double interval, const ReplayWatcher& watcher,
+               const std::function<void(const Snapshot&)>& see);
 
 }  // namespace grainreel

@@ -10,9 +10,9 @@
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/text.hpp"
-#include "engine/files/measures_csv.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/questions/statistics.hpp"
+#include "engine/run/stored/stored_run.hpp"
 
 namespace grainreel {
 
@@ -167,26 +167,24 @@ Steadiness steadiness_of(const std::vector<double>& times, const std::vector<dou
     return of;
 }
 
-Answer steady_answer(const std::filesystem::path& run, const Scene& scene, const std::string& column) {
-    const auto table = read_measures(run / "measures.csv");
+Answer steady_answer(const StoredRun& run, const std::string& column) {
+    const Scene& scene = run.known_scene();
+    const std::shared_ptr<const MeasureTable> table = run.measures();
     if (table == nullptr)
-        throw UserError(fmt::format("{}: has no measures.csv with rows; ask a run's folder", run.string()));
+        throw UserError(
+            fmt::format("{}: has no measures.csv with rows; ask a run's folder", run.path().string()));
     const std::vector<std::string>& columns = table->columns();
-    const auto number = [&](const std::string& name) {
-        return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
-    };
-    if (number(column) == columns.size()) {
+    if (!table->find(column)) {
         const auto meant = nearest_name(column, columns);
         throw UserError(fmt::format("'{}' is no column of measures.csv; {}", column,
                                     meant ? fmt::format("did you mean '{}'?", *meant)
                                           : fmt::format("there are {}", fmt::join(columns, ", "))));
     }
-    if (number("time_s") == columns.size())
-        throw UserError(fmt::format("{}: has no column time_s", (run / "measures.csv").string()));
+    if (!table->find("time_s"))
+        throw UserError(fmt::format("{}: has no column time_s", run.name_of("measures.csv")));
     const bool driven = scene.drive.present && !scene.drive.changes();
-    const Steadiness of = steadiness_of(table->values(number("time_s"), 0, table->rows()),
-                                        table->values(number(column), 0, table->rows()),
-                                        driven ? 1 / scene.drive.frequency : 0);
+    const Steadiness of =
+        steadiness_of(table->all("time_s"), table->all(column), driven ? 1 / scene.drive.frequency : 0);
     Dimension dimension = Dimension::number;
     for (const MeasureColumn& one : measure_columns(scene))
         if (one.name == column) dimension = one.dimension;

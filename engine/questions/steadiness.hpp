@@ -22,6 +22,8 @@
 
 namespace grainreel {
 
+class StoredRun;  // engine/run/stored/stored_run.hpp
+
 constexpr std::size_t kRowsWithoutDrive = 5;                  // rows in a batch of MSER, without a drive
 constexpr std::size_t kLeastBatches = 10, kMostBatches = 20;  // batches in the test of drift
 constexpr double kSignificance = 0.05;                        // level of the test of drift, two-sided
@@ -55,6 +57,6 @@ struct MannKendall {
 MannKendall mann_kendall(const std::vector<double>& values);
 
 // Tests a column of a run's measures.csv. Throws UserError where there is no such file or column.
-Answer steady_answer(const std::filesystem::path& run, const Scene& scene, const std::string& column);
+Answer steady_answer(const StoredRun& run, const std::string& column);
 
 }  // namespace grainreel

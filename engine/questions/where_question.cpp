@@ -184,13 +184,13 @@ std::vector<AnswerCell> moment_row(const Snapshot& s, const SeriesRequest& reque
     return row;
 }
 
-AnswerTable empty_table(const AskedRun& run, const SeriesRequest& request) {
+AnswerTable empty_table(const StoredRun& run, const SeriesRequest& request) {
     AnswerTable table{"over_time",
                       fmt::format("Grains with {}", request.condition),
                       {{"time", Dimension::time, "since the drive started"},
                        {"cycles", Dimension::number, "periods of the drive"}},
                       {}};
-    for (const Species& species : run.scene().species)
+    for (const Species& species : run.known_scene().species)
         table.columns.push_back({"grains_" + species.name, Dimension::number, "of this species"});
     table.columns.push_back({"grains", Dimension::number, "of all"});
     if (request.mean_of.empty()) return table;
@@ -205,7 +205,7 @@ AnswerTable empty_table(const AskedRun& run, const SeriesRequest& request) {
 }
 
 // The kept moments that are nearest to the multiples of a time, each once.
-std::vector<std::size_t> kept_nearest(const AskedRun& run, double every) {
+std::vector<std::size_t> kept_nearest(const StoredRun& run, double every) {
     const std::vector<Frame>& moments = run.moments();
     std::vector<std::size_t> all;
     std::size_t at = 0;
@@ -217,7 +217,7 @@ std::vector<std::size_t> kept_nearest(const AskedRun& run, double every) {
     return all;
 }
 
-std::vector<std::size_t> kept_ones(const AskedRun& run, const std::optional<double>& every) {
+std::vector<std::size_t> kept_ones(const StoredRun& run, const std::optional<double>& every) {
     if (every) return kept_nearest(run, *every);
     std::vector<std::size_t> all(run.moments().size());
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
@@ -226,20 +226,20 @@ std::vector<std::size_t> kept_ones(const AskedRun& run, const std::optional<doub
 
 }  // namespace
 
-Answer series_of(MomentFinder& finder, const AskedRun& run, const SeriesRequest& request,
-                 const ReplayWatcher& watcher) {
+Answer series_of(StoredRun& run, const SeriesRequest& request, const ReplayWatcher& watcher) {
     Answer answer{{empty_table(run, request)}, {}};
     AnswerTable& table = answer.tables.front();
     if (request.every && request.replay) {
-        finder.at_every(*request.every, watcher, [&](const Snapshot& snapshot) {
-            table.rows.push_back(moment_row(snapshot, request));
-        });
+        see_every(run, *request.every, watcher,
+                  [&](const Snapshot& snapshot) { table.rows.push_back(moment_row(snapshot, request)); });
         return answer;
     }
+    const std::vector<Needs> needs = needs_of(request.condition + " " + request.mean_of);
+    const bool with_ways = std::find(needs.begin(), needs.end(), Needs::period) != needs.end();
     std::size_t damaged = 0;
     for (const std::size_t k : kept_ones(run, request.every)) {
         try {
-            table.rows.push_back(moment_row(finder.kept(k), request));
+            table.rows.push_back(moment_row(kept_snapshot(run, k, with_ways), request));
         } catch (const DamagedFrame&) {
             ++damaged;
         }

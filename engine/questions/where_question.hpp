@@ -37,7 +37,6 @@ struct SeriesRequest {
 // condition holds, all of them, and the mean of the quantity over these, empty where there is none. Moments
 // whose grains are damaged are left out, with a note. Throws UserError for what cannot be asked, and where
 // the question needs what a kept moment lacks. `watcher` follows the moments that are brought back.
-Answer series_of(MomentFinder& finder, const AskedRun& run, const SeriesRequest& request,
-                 const ReplayWatcher& watcher);
+Answer series_of(StoredRun& run, const SeriesRequest& request, const ReplayWatcher& watcher);
 
 }  // namespace grainreel

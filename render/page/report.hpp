@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/plan/plan.hpp"
-#include "render/film/sources/recorded_run.hpp"
+#include "engine/run/stored/stored_run.hpp"
 #include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -34,8 +34,7 @@ constexpr std::size_t kMostPageBytes = 20'000'000;
 struct PageRun {
     std::filesystem::path folder;
     FilmedScene scene;                    // named after the folder
-    std::shared_ptr<RecordedRun> run;     // null for a run that kept no moment of its grains
-    bool contacts = false;                // whether the frames of `run` come with their contacts
+    std::shared_ptr<StoredRun> run;       // null for a run that kept no moment of its grains
     std::optional<PlannedScene> planned;  // empty when the scene cannot be planned any more
 };
 

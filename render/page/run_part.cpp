@@ -46,8 +46,9 @@ std::vector<std::uint8_t> packed_table(const fs::path& file) {
 // The key moments of the run, and some more when the run kept contacts at all moments.
 std::vector<std::size_t> key_moments_of(const KeptList& all) {
     std::vector<std::size_t> known, keys;
+    // Whether the contacts of a moment are whole is seen when they are read.
     for (std::size_t k = 0; k < all.moments().size(); ++k)
-        if (all.has_contacts_of(k)) known.push_back(k);
+        if (all.place_of(k).key || (all.place_of(k).trajectory && all.supply().contacts)) known.push_back(k);
     const std::size_t most =
         std::min(most_chosen_keys,
                  most_chosen_pairs / pairs_a_grain / std::max<std::size_t>(1, all.first_whole().size()));
@@ -55,6 +56,10 @@ std::vector<std::size_t> key_moments_of(const KeptList& all) {
         if (all.place_of(known[k]).key || k * most / known.size() != (k + 1) * most / known.size())
             keys.push_back(known[k]);
     return keys;
+}
+
+Span span_of(const StoredRun* run) {
+    return run ? Span{run->from(), run->to()} : Span{0, 0};
 }
 
 // What the page lacks, because a file of moments beside the trajectory is damaged or of another run.
@@ -121,16 +126,15 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
     constexpr std::size_t share_of_meshes = 4;
     meshes_ = page_meshes(scene(), most_bytes / share_of_meshes);
     most_bytes -= meshes_.packed.size();
-    const double start = times_.times.empty() ? run_.run->span().from : times_.times.front();
+    const double start = times_.times.empty() ? run_.run->from() : times_.times.front();
     const auto coloured = [&](const FrameArchive& moments) {
         return film_has_scale(scene())
                    ? std::make_unique<FilmColours>(scene(), moments, run_.run->clock(), start)
                    : nullptr;
     };
     try {
-        const RunArchive& run = run_.run->frames();
         const bool with_keys = true;
-        const KeptList all(run, *run.scene(), run.clock(), with_keys);
+        const KeptList all(*run_.run, run_.run->known_scene(), run_.run->clock(), with_keys);
         const std::unique_ptr<FilmColours> film = coloured(all);
         BedContacts contacts;
         contacts.film = film.get();
@@ -142,10 +146,10 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
         // A frame in a file beside the trajectory is damaged, so only the trajectory is used.
         bed_news_.push_back(
             fmt::format("{}; the page has the moments of trajectory.nc alone", problem.what()));
-        const std::unique_ptr<FilmColours> film = coloured(run_.run->frames());
+        const std::unique_ptr<FilmColours> film = coloured(*run_.run);
         BedContacts contacts;
         contacts.film = film.get();
-        bed_ = bed_frames(run_.run->frames(), most_bytes, progress, contacts);
+        bed_ = bed_frames(*run_.run, most_bytes, progress, contacts);
     }
 }
 
@@ -161,7 +165,7 @@ FilmTimes RunPart::film_times_of() {
 }
 
 Span RunPart::kept_span() const {
-    Span span = run_.run ? run_.run->span() : Span{0, 0};
+    Span span = span_of(run_.run.get());
     if (!table_ || measures_.time >= measures_.columns.size() || table_->rows() == 0) return span;
     const std::vector<double> times = table_->values(measures_.time, 0, table_->rows());
     if (!run_.run) return {times.front(), times.back()};
@@ -169,7 +173,7 @@ Span RunPart::kept_span() const {
 }
 
 Span RunPart::span() const {
-    Span span = run_.run ? run_.run->span() : kept_span();
+    Span span = run_.run ? span_of(run_.run.get()) : kept_span();
     if (!times_.times.empty()) {
         span.from = std::min(span.from, times_.times.front());
         span.to = std::max(span.to, times_.times.back());
@@ -274,9 +278,12 @@ std::vector<std::string> RunPart::lacking_files() const {
 
 std::vector<std::string> RunPart::news() const {
     std::vector<std::string> news;
-    if (run_.run)
+    if (run_.run) {
         news = run_.run->news();
-    else if (record_.trajectory_frames > 0)
+        if (const auto lack = run_.run->lack_of(Part::contacts); lack && (lack->some || lack->damaged))
+            news.push_back(lack->what + (lack->some ? "; the last moments are drawn without contacts"
+                                                    : "; the page has forces of key moments at most"));
+    } else if (record_.trajectory_frames > 0)
         news.push_back(no_moments() + "; the page has no bed");
     const auto add = [&](const std::string& line) {
         if (!line.empty()) news.push_back(line);

@@ -11,7 +11,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/own_folder.hpp"
-#include "engine/files/frames/run_archive.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "tests/foreign/dump_files.hpp"
 

@@ -21,6 +21,10 @@ std::filesystem::path folder_of_run(const std::filesystem::path& folder);
 // The path of a file in the folder. Throws UserError with the advice when there is no such file.
 std::filesystem::path file_of_run(const std::filesystem::path& folder, const char* name, const char* advice);
 
+// Why a run may have no trajectory.nc.
+inline constexpr const char* kWithoutTrajectory =
+    "the run kept none: it was told so (output.trajectory = false), or it ended before its first frame";
+
 // The scene.toml of a run's folder. The scene is named after the folder. Throws UserError when it cannot be
 // read.
 Scene plain_scene_of_run(const std::filesystem::path& folder);

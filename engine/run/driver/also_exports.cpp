@@ -8,9 +8,9 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/files/run_names.hpp"
+#include "engine/run/stored/stored_run.hpp"
 
 namespace grainreel {
 
@@ -67,7 +67,7 @@ std::string write_also(const fs::path& run, const Scene& scene,
     if (const std::error_code error = make_plain_folder(also); error)
         throw RunError(fmt::format("{}: cannot be made: {}", also.string(), error.message()));
     remove_parts(also);
-    const std::unique_ptr<FrameArchive> frames = open_frames(run);
+    const StoredRun frames(run);
     double begin = 0;
     for (const std::string& format : formats) {
         bool goes_on = true;
@@ -78,7 +78,7 @@ std::string write_also(const fs::path& run, const Scene& scene,
         const std::string name = name_in_also(format);
         if (!go_on(0)) break;
         try {
-            export_frames(*frames, format, also / name, {}, replace, go_on);
+            export_frames(frames, format, also / name, {}, replace, go_on);
         } catch (const RunError&) {
             if (goes_on) throw;
             break;

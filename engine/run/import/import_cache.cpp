@@ -17,7 +17,7 @@
 #include "engine/base/own_folder.hpp"
 #include "engine/base/program.hpp"
 #include "engine/files/foreign/raw_series.hpp"
-#include "engine/files/frames/run_archive.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/run/import/import_run.hpp"
 
 namespace grainreel {

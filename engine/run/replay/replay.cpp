@@ -109,7 +109,7 @@ bool Replayer::is_shortcut(std::int64_t from, std::int64_t to) const {
                        [&](const KeptCheckpoint& one) { return one.step > from && one.step <= to; });
 }
 
-const Simulation& Replayer::at(std::int64_t step, const ReplayWatcher& watcher) {
+Simulation& Replayer::at(std::int64_t step, const ReplayWatcher& watcher) {
     const bool goes_on =
         simulation_ && simulation_->step() <= step && !is_shortcut(simulation_->step(), step);
     if (goes_on) {
@@ -160,10 +160,11 @@ std::string why_not(const KeptCheckpoint& one, const std::string& today,
 
 }  // namespace
 
-OwnCheckpoints own_checkpoints(const fs::path& run, const Scene& scene) {
-    OwnCheckpoints own;
+std::vector<KeptCheckpoint> own_checkpoints(const fs::path& run, const Scene& scene,
+                                            std::vector<std::string>& news) {
+    std::vector<KeptCheckpoint> own;
     const auto pass_over = [&](const fs::path& file, const std::string& why) {
-        own.news.push_back(fmt::format("{}: {}; it is passed over", file.string(), why));
+        news.push_back(fmt::format("{}: {}; it is passed over", file.string(), why));
     };
     std::vector<KeptCheckpoint> all = kept_checkpoints(run);
     std::error_code ignored;
@@ -174,12 +175,12 @@ OwnCheckpoints own_checkpoints(const fs::path& run, const Scene& scene) {
     const std::vector<AcceptedKey> accepted = accepted_in_run_json(run / "run.json");
     for (KeptCheckpoint& one : all) {
         const std::string why = why_not(one, today, accepted);
-        why.empty() ? own.kept.push_back(std::move(one)) : pass_over(one.file, why);
+        why.empty() ? own.push_back(std::move(one)) : pass_over(one.file, why);
     }
     // The last checkpoint says how far the run has come, so it must be whole.
-    while (!own.kept.empty() && !is_whole_checkpoint(own.kept.back().file)) {
-        pass_over(own.kept.back().file, kDamaged);
-        own.kept.pop_back();
+    while (!own.empty() && !is_whole_checkpoint(own.back().file)) {
+        pass_over(own.back().file, kDamaged);
+        own.pop_back();
     }
     return own;
 }

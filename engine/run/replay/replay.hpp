@@ -51,7 +51,7 @@ class Replayer {
     // Whether the step has no checkpoint of its own, so that the engine must compute steps to reach it.
     bool goes_to(std::int64_t step) const;
     // The run at a step; valid until the next call. Throws as replayed() does.
-    const Simulation& at(std::int64_t step, const ReplayWatcher& watcher);
+    Simulation& at(std::int64_t step, const ReplayWatcher& watcher);
 
   private:
     // Whether a checkpoint lies between the two steps, or at the second.
@@ -63,15 +63,11 @@ class Replayer {
     std::optional<Simulation> simulation_;
 };
 
-// The checkpoints in a run's folder that belong to this run: they have the run's scene, as far as it decides
-// the future, and the step in their name. A file from elsewhere would lead to states that this run never had.
-struct OwnCheckpoints {
-    std::vector<KeptCheckpoint> kept;  // by rising step; the last one is whole
-    std::vector<std::string> news;     // which checkpoints are skipped, and why
-};
-
-// Finds these checkpoints. `scene` is the scene of the run's folder. Changes on the run's way (`resume
-// --accept`) are in its run.json.
-OwnCheckpoints own_checkpoints(const std::filesystem::path& run, const Scene& scene);
+// The checkpoints in a run's folder that belong to this run, by rising step; the last one is whole. They have
+// the run's scene, as far as it decides the future, and the step in their name. A file from elsewhere would
+// lead to states that this run never had. `scene` is the scene of the run's folder. Changes on the run's way
+// (`resume --accept`) are in its run.json. news: gets a line for each checkpoint that is passed over.
+std::vector<KeptCheckpoint> own_checkpoints(const std::filesystem::path& run, const Scene& scene,
+                                            std::vector<std::string>& news);
 
 }  // namespace grainreel

@@ -11,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
+#include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/questions/contact_questions.hpp"
 #include "engine/questions/grain_columns.hpp"
@@ -23,6 +24,7 @@
 #include "render/app/options/run_to_read.hpp"
 #include "render/film/answers/pictured_answer.hpp"
 #include "render/film/sampling/film_frames.hpp"
+#include "render/film/sources/recorded_scene.hpp"
 
 namespace grainreel {
 
@@ -36,29 +38,22 @@ class Inspection {
 
     Answer answer(Reporter& reporter) {
         open(reporter);
-        const AskedRun* const asked_run = asked_->asked;
-        tell_news(*asked_run, reporter);
-        MomentFinder finder(*asked_run);
-        Answer answer = asks_.steady ? named("--steady", [&] { return steady(*asked_run); })
-                        : asks_.series()
-                            ? named("--where", [&] { return series_answer(finder, *asked_run, reporter); })
-                        : asks_.average ? mean_answer(finder, *asked_run, reporter)
-                                        : single_answer(finder, *asked_run, reporter);
+        StoredRun& run = *asked_.run;
+        tell_news(run, reporter);
+        Answer answer = asks_.steady ? named("--steady", [&] { return steady_answer(run, *asks_.steady); })
+                        : asks_.series() ? named("--where", [&] { return series_answer(run, reporter); })
+                        : asks_.average  ? mean_answer(run, reporter)
+                                         : single_answer(run, reporter);
         answer.notes.insert(answer.notes.end(), missing_.begin(), missing_.end());
         return answer;
     }
 
   private:
-    Answer steady(const AskedRun& asked_run) const {
-        const fs::path& place = asked_run.frames().path();
-        return steady_answer(place, asked_run.scene(), *asks_.steady);
-    }
-
-    Answer series_answer(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) const {
+    Answer series_answer(StoredRun& run, Reporter& reporter) const {
         if (asks_.every && takes_in_series(Needs::period))
             throw UserError("ways over a period are known of single moments; leave --every out");
         SeriesRequest request{*asks_.where, asks_.mean, asks_.every, !asks_.no_replay && !foreign_};
-        return series_of(finder, asked_run, request, watcher_of(reporter));
+        return series_of(run, request, watcher_of(reporter));
     }
 
     bool takes_in_series(Needs what) const {
@@ -66,13 +61,13 @@ class Inspection {
         return std::find(all.begin(), all.end(), what) != all.end();
     }
 
-    Answer single_answer(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) {
-        const ChosenMoment chosen = snapshot_of(finder, asked_run, reporter);
+    Answer single_answer(StoredRun& run, Reporter& reporter) {
+        const ChosenMoment chosen = snapshot_of(run, reporter);
         const Snapshot& snapshot = chosen.snapshot;
-        Answer answer = answer_of(finder, snapshot, reporter);
+        Answer answer = answer_of(run, snapshot, reporter);
         answer.moment = chosen.about;
         if (!asks_.picture.empty())
-            draw_answer(snapshot, asked_->scene(), marks_of(snapshot, answer), film_time(), asks_.picture,
+            draw_answer(snapshot, asked_.scene, marks_of(snapshot, answer), film_time(), asks_.picture,
                         asks_.gl);
         return answer;
     }
@@ -103,43 +98,40 @@ class Inspection {
         // out.
         asks_.reading.one = true;
         if (foreign && asks_.draws()) return open_import(reporter);
-        asked_ = foreign || fs::is_regular_file(asks_.run, ignored)
-                     ? open_filmed_state(asks_.run, asks_.sets, asks_.reading)
-                     : open_filmed_run(asks_.run, sets_for_contacts(asks_.run));
+        if (!foreign && !fs::is_regular_file(asks_.run, ignored)) folder_of_run(asks_.run);
+        open_run(asks_.run);
         // Our own trajectory without its folder does not count as a file of another program here.
-        foreign_ = dynamic_cast<const ForeignArchive*>(&asked_->asked->frames()) != nullptr;
-        elsewhere_ = !foreign_ && is_of_another_engine(asks_.run);
+        foreign_ = asked_.run->kind() == StoredRun::Kind::foreign;
+        elsewhere_ = asked_.run->kind() == StoredRun::Kind::elsewhere;
         foreign_ = foreign_ || elsewhere_;
         asks_.no_replay = asks_.no_replay || foreign_;
-        CaptionHolds holds(asked_->scene().film);
+        CaptionHolds holds(asked_.scene.film);
         asks_.moment.held = [holds](double time) mutable { return holds.begin_at(time); };
     }
 
     // Opens an import of another program's files, as `render` does, so that pictures are the same.
     void open_import(Reporter& reporter) {
         const RunToRead read = run_to_read(asks_.run, asks_.reading, reporter);
-        asked_ = open_filmed_run(read.folder, sets_for_contacts(read.folder));
+        open_run(read.folder);
         foreign_ = asks_.no_replay = asks_.moment.frame_of_file = true;
     }
 
+    void open_run(const fs::path& path) {
+        StoredRunRequest request;
+        request.reading = asks_.reading;
+        request.threads = 0;
+        asked_ = open_filmed(path, asks_.sets, request);
+    }
+
     // Tells the user which files are left out of answers because they are damaged or of another run.
-    void tell_news(const AskedRun& asked_run, Reporter& reporter) {
-        const std::vector<std::string> faults = asked_run.faults();
-        for (const std::string& line : asked_run.news()) {
+    void tell_news(const StoredRun& run, Reporter& reporter) {
+        const std::vector<std::string> faults = run.faults();
+        for (const std::string& line : run.news()) {
             if (std::find(faults.begin(), faults.end(), line) == faults.end()) reporter.detail(line);
             if (!fs::is_directory(asks_.run)) missing_.push_back(line);
         }
-        for (const auto& lines : {faults, asked_run.checkpoint_news()})
+        for (const auto& lines : {faults, run.checkpoint_news()})
             for (const std::string& line : lines) reporter.warning(line);
-    }
-
-    // The settings. If the run kept contacts, film.force_chains is added, which makes them be read.
-    Assignments sets_for_contacts(const fs::path& folder) const {
-        std::error_code ignored;
-        Assignments sets = asks_.sets;
-        if (fs::exists(folder / "contacts.nc", ignored))
-            sets.push_back({"film.force_chains=true", "contacts.nc"});
-        return sets;
     }
 
     // Whether the question is about forces on walls or overlaps. Runs do not keep them; only the engine can
@@ -149,7 +141,7 @@ class Inspection {
     // Time in the film in s. The place of a moving camera depends on it.
     double film_time() const {
         if (asks_.film_time) return *asks_.film_time;
-        return asks_.moment.frame ? static_cast<double>(*asks_.moment.frame) / asked_->scene().film.rate : 0;
+        return asks_.moment.frame ? static_cast<double>(*asks_.moment.frame) / asked_.scene.film.rate : 0;
     }
 
     bool asks_nothing() const {
@@ -166,22 +158,23 @@ class Inspection {
 
     // Whether the moment must be simulated again: the run did not keep it, or kept it without what is asked
     // for.
-    bool is_to_be_brought_back(const MomentFinder& finder, const AskedMoment& asked,
-                               const AskedRun& asked_run) const {
+    bool is_to_be_brought_back(const AskedMoment& asked, const StoredRun& run) const {
         if (!asked.kept || asks_for_forces()) return true;
-        if (asks_.grain) return finder.can_bring_back(asked);
-        return (takes(Needs::contacts) && !asked_run.frames().has_contacts_of(*asked.kept)) ||
-               takes(Needs::forces) || takes(Needs::period) ||
-               (asks_nothing() && finder.is_checkpoint(asked));
+        if (asks_.grain) return run.brings_back(asked.step);
+        return (takes(Needs::contacts) && !run.has_contacts_of(*asked.kept)) || takes(Needs::forces) ||
+               takes(Needs::period) || (asks_nothing() && has_checkpoint(run, asked));
     }
 
     // Reads a kept moment. None when it is damaged but can be brought back.
-    std::optional<Snapshot> kept_moment(const MomentFinder& finder, const AskedMoment& asked,
+    std::optional<Snapshot> kept_moment(const StoredRun& run, const AskedMoment& asked,
                                         Reporter& reporter) const {
         try {
-            return finder.kept(asked.nearest);
+            Snapshot snapshot = kept_snapshot(run, asked.nearest, takes(Needs::period));
+            if (asks_.draws() && shows_wear(asked_.scene))
+                snapshot.frame.worn = run.worn(snapshot.frame.time);
+            return snapshot;
         } catch (const DamagedFrame& damage) {
-            if (asks_.no_replay || !asked.kept || !finder.can_bring_back(asked)) throw;
+            if (asks_.no_replay || !asked.kept || !run.brings_back(asked.step)) throw;
             reporter.warning(fmt::format("{}; the moment is brought back", damage.what()));
             return std::nullopt;
         }
@@ -192,28 +185,28 @@ class Inspection {
         AnswerMoment about;
     };
 
-    ChosenMoment snapshot_of(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) {
+    ChosenMoment snapshot_of(StoredRun& run, Reporter& reporter) {
         if (asks_.moment.cycle) *asks_.moment.cycle += asks_.phase;
-        const AskedMoment asked = finder.find(asks_.moment);
+        const AskedMoment asked = find_moment(run, asks_.moment);
         const char* last = asked.last ? "the run's last moment, " : "";
-        if (foreign_) check_known(asked, asked_run);
+        if (foreign_) check_known(asked, run);
         if (asks_.no_replay && asks_for_forces())
             throw UserError(
                 "--no-replay: forces on walls and overlaps are not kept, they are brought back; leave it "
                 "out");
-        const bool as_kept = asks_.no_replay || !is_to_be_brought_back(finder, asked, asked_run);
-        if (auto kept = as_kept ? kept_moment(finder, asked, reporter) : std::nullopt) {
+        const bool as_kept = asks_.no_replay || !is_to_be_brought_back(asked, run);
+        if (auto kept = as_kept ? kept_moment(run, asked, reporter) : std::nullopt) {
             if (!asked.kept)
                 missing_.push_back(
                     fmt::format("{:.6g} s was not kept; this is the nearest kept moment", asked.time));
-            const Frame& moment = asked_run.moments()[asked.nearest];
+            const Frame& moment = run.moments()[asked.nearest];
             return {std::move(*kept),
                     {moment.time, moment.step,
                      fmt::format("{}kept as number {} of {}", asked.kept ? last : "", asked.nearest + 1,
-                                 asked_run.moments().size())}};
+                                 run.moments().size())}};
         }
-        Snapshot snapshot = takes(Needs::period) ? finder.brought_back_with_ways(asked, watcher_of(reporter))
-                                                 : finder.brought_back(asked, watcher_of(reporter));
+        Snapshot snapshot = takes(Needs::period) ? brought_back_with_ways(run, asked, watcher_of(reporter))
+                                                 : brought_back_snapshot(run, asked, watcher_of(reporter));
         const Frame& frame = snapshot.frame;
         AnswerMoment about{frame.time, frame.step, fmt::format("{}brought back", last)};
         return {std::move(snapshot), std::move(about)};
@@ -221,7 +214,7 @@ class Inspection {
 
     // Throws when the question needs something that the files of another program lack. Their runs cannot be
     // simulated again.
-    void check_known(const AskedMoment& asked, const AskedRun& asked_run) const {
+    void check_known(const AskedMoment& asked, const StoredRun& run) const {
         if (asks_for_forces())
             throw UserError(
                 fmt::format("{}: {}: forces on walls and overlaps are known of runs of our own engine alone",
@@ -231,7 +224,7 @@ class Inspection {
                 "{}: another engine computed the run, and its dumps have no contacts; --help lists "
                 "the quantities that are always known, without a *",
                 asks_.run.string()));
-        if (takes(Needs::contacts) && !asked_run.frames().has_contacts_of(asked.nearest))
+        if (takes(Needs::contacts) && !run.has_contacts_of(asked.nearest))
             throw UserError(
                 fmt::format("{}: says no contacts of that moment; name a file that has them by --contacts",
                             asks_.run.string()));
@@ -247,10 +240,10 @@ class Inspection {
     }
 
     // The mean of the answers at the moments of the last periods before the asked moment.
-    Answer mean_answer(MomentFinder& finder, const AskedRun& asked_run, Reporter& reporter) const {
-        const AskedMoment asked = finder.find(asks_.moment);
-        if (foreign_) check_known(asked, asked_run);
-        const bool replay = !asks_.no_replay && finder.can_bring_back(asked);
+    Answer mean_answer(StoredRun& run, Reporter& reporter) const {
+        const AskedMoment asked = find_moment(run, asks_.moment);
+        if (foreign_) check_known(asked, run);
+        const bool replay = !asks_.no_replay && run.brings_back(asked.step);
         if (!replay && asks_for_forces())
             throw UserError(
                 "--average: forces on walls and overlaps are not kept, and nothing is brought back here; "
@@ -261,7 +254,7 @@ class Inspection {
         if (asks_.histogram) histogram.emplace(*asks_.histogram);
         std::size_t moments = 0, without_grain = 0;
         double bin = 0;
-        finder.over_periods(asked, *asks_.average, replay, watcher_of(reporter), [&](Snapshot snapshot) {
+        see_periods(run, asked, *asks_.average, replay, watcher_of(reporter), [&](Snapshot snapshot) {
             ++moments;
             // Grains may come and go, but the bins must be the same at all moments.
             if (bin == 0 && snapshot.frame.size() > 0) bin = snapshot.bin();
@@ -271,12 +264,11 @@ class Inspection {
             else if (histogram)
                 named("--histogram", [&] { return histogram->add(snapshot); });
             else
-                mean.add(answer_of(finder, snapshot, reporter), snapshot.frame.time);
+                mean.add(answer_of(run, snapshot, reporter), snapshot.frame.time);
         });
         if (moments == 0)
             throw UserError(fmt::format("--average: {} kept no moment in the {} before {:.6g} s",
-                                        asked_run.frames().path().string(), counted(*asks_.average, "period"),
-                                        asked.time));
+                                        run.path().string(), counted(*asks_.average, "period"), asked.time));
         if (without_grain == moments)
             throw UserError(fmt::format("--grain: no grain has the id {} at any of the {} moments",
                                         *asks_.grain, moments));
@@ -293,7 +285,7 @@ class Inspection {
         return answer;
     }
 
-    Answer answer_of(MomentFinder& finder, const Snapshot& snapshot, Reporter& reporter) const {
+    Answer answer_of(StoredRun& run, const Snapshot& snapshot, Reporter& reporter) const {
         if (asks_.wall)
             return named("--wall", [&] { return wall_answer(snapshot, *asks_.wall, asks_.limit); });
         if (asks_.largest_overlap) return largest_overlap_answer(snapshot, asks_.limit);
@@ -310,7 +302,7 @@ class Inspection {
             });
         if (!asks_.pixel.empty())
             return named("--pixel", [&] {
-                Answer there = PixelPicker(snapshot, asked_->scene(), film_time())
+                Answer there = PixelPicker(snapshot, asked_.scene, film_time())
                                    .at(asks_.pixel[0], asks_.pixel[1], asks_.through);
                 if (there.tables[0].rows.empty())
                     throw UserError(fmt::format("nothing is at {:g},{:g}", asks_.pixel[0], asks_.pixel[1]));
@@ -319,10 +311,10 @@ class Inspection {
         if (asks_.pairs)
             return named("--pair-distribution", [&] { return pair_distribution_answer(snapshot); });
         if (asks_.compare) {
-            const AskedMoment earlier = finder.find({.at = asks_.compare, .at_option = "--compare"});
+            const AskedMoment earlier = find_moment(run, {.at = asks_.compare, .at_option = "--compare"});
             const bool replay = !earlier.kept && !asks_.no_replay;
-            const Snapshot before =
-                replay ? finder.brought_back(earlier, watcher_of(reporter)) : finder.kept(earlier.nearest);
+            const Snapshot before = replay ? brought_back_snapshot(run, earlier, watcher_of(reporter))
+                                           : kept_snapshot(run, earlier.nearest);
             return named("--compare", [&] { return compare_answer(before, snapshot, asks_.limit); });
         }
         return overview_of(snapshot);
@@ -339,10 +331,10 @@ class Inspection {
     }
 
     InspectRequest asks_;
-    std::unique_ptr<const AskedRunWithFilm> asked_;  // the run, once it is open
-    bool foreign_ = false;                           // whether another program computed the run
-    bool elsewhere_ = false;                         // whether it was handed over to another engine
-    std::vector<std::string> missing_;               // words for what an answer lacks
+    FilmedRun asked_;                   // the run, once it is open
+    bool foreign_ = false;              // whether another program computed the run
+    bool elsewhere_ = false;            // whether it was handed over to another engine
+    std::vector<std::string> missing_;  // words for what an answer lacks
 };
 
 }  // namespace

@@ -79,13 +79,13 @@ class Export final : public Verb {
                             option, run_.string()));
         if (!out_.empty()) check_free(out_, force_);
         bring_back_to_read(run_, reporter);
-        FrameRequest request;
+        StoredRunRequest request;
         request.reading = reading_;
-        const std::unique_ptr<FrameArchive> frames = open_frames(run_, request);
-        for (const std::string& line : frames->news()) reporter.info(line);
+        const StoredRun run(run_, request);
+        for (const std::string& line : run.all_news()) reporter.info(line);
         const ShareWatcher watcher(reporter, Progress::Stage::exporting);
-        const Exported made = export_frames(*frames, format_, out_.empty() ? usual_name() : out_, choice_,
-                                            force_, [&](double done) { return watcher(format_, done); });
+        const Exported made = export_frames(run, format_, out_.empty() ? usual_name() : out_, choice_, force_,
+                                            [&](double done) { return watcher(format_, done); });
         if (choice_.at && std::abs(made.first - *choice_.at) > 1e-5 * std::abs(*choice_.at))
             reporter.info(
                 fmt::format("--at: {:.6g} s was not kept; {:.6g} s is written, the kept moment that "

@@ -25,7 +25,7 @@
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/run/engine_run.hpp"
 #include "render/film/run/movie_run.hpp"
-#include "render/film/sources/recorded_run.hpp"
+#include "render/film/sources/film_needs.hpp"
 #include "render/page/live/server.hpp"
 #include "render/scene/filmed_scene.hpp"
 

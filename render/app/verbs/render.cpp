@@ -22,7 +22,7 @@
 #include "render/film/run/follow_run.hpp"
 #include "render/film/run/redraw_run.hpp"
 #include "render/film/run/still.hpp"
-#include "render/film/sources/revisited_run.hpp"
+#include "render/film/sources/stored_shots.hpp"
 
 namespace grainreel {
 namespace {
@@ -117,8 +117,8 @@ class Render final : public Verb {
         if (read.imported && !is_still() && !request_.every) request_.every = 1;
         if (is_still()) return draw_one(reporter);
         if (request_.every) check_no_segments(request_.sets);
-        RevisitedRun source(request_.run, request_.sets, request_.replay);
-        source.leave_out_damaged();
+        StoredShots source(request_.run, request_.sets, request_.replay);
+        source.check_all();
         keep_camera_file(camera_, source.scene().film.camera);
         if (slurm_ > 0) return tell_script(reporter, source);
         RedrawRun redraw(film_, request_, reporter, source);
@@ -159,7 +159,7 @@ class Render final : public Verb {
     }
 
     int draw_one(Reporter& reporter) const {
-        RevisitedRun source(request_.run, sets_for_still(request_.sets), request_.replay);
+        StoredShots source(request_.run, sets_for_still(request_.sets), request_.replay);
         keep_camera_file(camera_, source.scene().film.camera);
         const auto file = draw_still(film_, request_, reporter, source);
         if (!file) return signal_base + reporter.stop_signal();
@@ -168,7 +168,7 @@ class Render final : public Verb {
     }
 
     // Prints the script for Slurm, after checking for mistakes that would make every part fail.
-    int tell_script(Reporter& reporter, RevisitedRun& source) {
+    int tell_script(Reporter& reporter, StoredShots& source) {
         if (!film_.out) throw UserError("--slurm: the film needs a name; add --out film.mp4");
         if (!film_.film) throw UserError("--slurm: joins films; leave out --no-film");
         request_.parts = PartsWanted{1, slurm_};

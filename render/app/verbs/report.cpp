@@ -32,11 +32,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Settings that make a run's frames come with the contacts that it kept.
-Assignments with_contacts() {
-    return {{"film.force_chains=true", "report"}};
-}
-
 // Whether the run kept moments. A damaged file counts as kept: reading it tells what is wrong.
 bool kept_moments(const fs::path& folder) {
     if (!is_there(folder / "trajectory.nc")) return false;
@@ -67,12 +62,13 @@ std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const 
         PageRun& one = all.emplace_back();
         one.folder = folder_of_run(run);
         if (kept_moments(one.folder)) {
-            one.contacts = is_there(one.folder / "contacts.nc");
-            one.run =
-                std::make_shared<RecordedRun>(one.folder, one.contacts ? with_contacts() : Assignments());
-            if (!checked) one.run->leave_out_damaged();
+            FilmedRun filmed = open_filmed(one.folder, {});
+            if (!checked) filmed.run->check_all();
+            one.scene = std::move(filmed.scene);
+            one.run = std::move(filmed.run);
+        } else {
+            one.scene = scene_of_run(one.folder, {});
         }
-        one.scene = one.run ? one.run->scene() : scene_of_run(one.folder, {});
         one.planned = planned_scene(one.scene);
     }
     return write_report(all, out.empty() ? all.front().folder / kPageName : out, progress);

@@ -5,9 +5,7 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/open_frames.hpp"
 #include "engine/questions/ray.hpp"
-#include "engine/state/checkpoint_file.hpp"
 #include "render/film/codec/png.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/sources/film_request.hpp"
@@ -20,50 +18,6 @@
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
-
-namespace fs = std::filesystem;
-
-namespace {
-
-void open_checkpoint(AskedRunWithFilm& one, const fs::path& file, const Assignments& sets) {
-    one.state = std::make_unique<RestoredCheckpoint>(file);
-    one.film = scene_of_checkpoint_to_draw(file, sets);
-}
-
-void open_table(AskedRunWithFilm& one, const fs::path& file, const Assignments& sets,
-                const ReadingOptions& reading) {
-    FrameRequest request;
-    request.reading = reading;
-    request.scene_of_run = [&](const fs::path& folder) {
-        return one.film.emplace(scene_of_run(folder, sets));
-    };
-    one.state = std::make_unique<AskedRun>(std::shared_ptr<const FrameArchive>(open_frames(file, request)));
-    if (one.film) return;
-    if (!sets.empty())
-        throw UserError(fmt::format("{}: there is no scene.toml beside {}, so nothing of it can be set",
-                                    sets.front().place(), file.string()));
-    FilmedScene& film = one.film.emplace();
-    static_cast<Scene&>(film) = one.state->scene();
-    film.colours.resize(film.species.size());
-}
-
-}  // namespace
-
-std::unique_ptr<const AskedRunWithFilm> open_filmed_run(const fs::path& folder, const Assignments& sets) {
-    auto one = std::make_unique<AskedRunWithFilm>();
-    const bool for_questions = true;
-    one->run = std::make_unique<RecordedRun>(folder, sets, for_questions);
-    one->asked = &one->run->record();
-    return one;
-}
-
-std::unique_ptr<const AskedRunWithFilm> open_filmed_state(const fs::path& file, const Assignments& sets,
-                                                          const ReadingOptions& reading) {
-    auto one = std::make_unique<AskedRunWithFilm>();
-    is_checkpoint(file) ? open_checkpoint(*one, file, sets) : open_table(*one, file, sets, reading);
-    one->asked = one->state.get();
-    return one;
-}
 
 namespace {
 

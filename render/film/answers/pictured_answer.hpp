@@ -11,40 +11,15 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
 #include "engine/questions/answer.hpp"
-#include "engine/questions/asked_run.hpp"
 #include "engine/questions/ray.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "render/film/sources/recorded_run.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/marks/force_marks.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
-
-// A run, or a single state of one, that is asked questions, with the film by which pictures of the answers
-// are drawn.
-struct AskedRunWithFilm {
-    const AskedRun* asked = nullptr;  // `state`, or the record of `run`
-    const FilmedScene& scene() const { return run ? run->scene() : *film; }  // the scene with its film
-
-    std::unique_ptr<const RecordedRun> run;  // the run, when a run's folder was opened
-    std::unique_ptr<const AskedRun> state;   // set where a single state was asked
-    std::optional<FilmedScene> film;         // set where a single state was asked
-};
-
-// Opens a run's folder. `sets` has the same meaning as for a RecordedRun, and the same UserErrors are thrown.
-std::unique_ptr<const AskedRunWithFilm> open_filmed_run(const std::filesystem::path& folder,
-                                                        const Assignments& sets);
-
-// Opens a single state of a run, without the run's folder: a checkpoint, or a table of grains. A checkpoint
-// holds its scene. A table takes the scene of the scene.toml beside it; without one its species are "type 1",
-// "type 2" and so on, of unknown density, in no container. Throws UserError when the file cannot be read.
-// `reading` says how files of other programs are read.
-std::unique_ptr<const AskedRunWithFilm> open_filmed_state(const std::filesystem::path& file,
-                                                          const Assignments& sets,
-                                                          const ReadingOptions& reading = {});
 
 // Finds what is at a pixel of a moment's picture. The picture has the film's size, camera, cut and hidden
 // species; ghosts, which are seen through, do not count.

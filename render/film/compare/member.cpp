@@ -224,8 +224,8 @@ ThreadPlan plan_threads_for(const std::vector<FilmedScene>& scenes) {
 }
 
 std::unique_ptr<ComparedMember> member_of_run(const CompareRequest& what, const Input& input, int sharers) {
-    auto record = std::make_unique<RevisitedRun>(input.path, input.sets(what), what.replay, sharers);
-    record->leave_out_damaged();
+    auto record = std::make_unique<StoredShots>(input.path, input.sets(what), what.replay, sharers);
+    record->check_all();
     return std::make_unique<ComparedMember>(std::move(record));
 }
 

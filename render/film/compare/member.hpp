@@ -14,8 +14,8 @@
 #include "engine/files/run_json.hpp"
 #include "engine/run/folder/folder_run.hpp"
 #include "render/film/sources/frame_source.hpp"
-#include "render/film/sources/revisited_run.hpp"
 #include "render/film/sources/scene_run.hpp"
+#include "render/film/sources/stored_shots.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -25,14 +25,14 @@ class ComparedMember {
     using GoOn = FrameSource::GoOn;
 
     ComparedMember(const FilmedScene& scene, const Plan& plan, int threads);
-    explicit ComparedMember(std::unique_ptr<RevisitedRun> record)
+    explicit ComparedMember(std::unique_ptr<StoredShots> record)
         : record_(record.get()), source_(std::move(record)) {}
 
     const FrameSource& source() const { return *source_; }
     const FilmedScene& scene() const { return source_->scene(); }
     const FrameArchive* archive() const { return source_->archive(); }  // null for a scene that is run
     const RunDriver* run() const { return driver_.get(); }              // null for a run on disk
-    const RevisitedRun* record() const { return record_; }              // null for a scene that is run
+    const StoredShots* record() const { return record_; }               // null for a scene that is run
     const Clock& clock() const { return driver_ ? driver_->plan().clock : record_->clock(); }
     // Where the member's files are, as run.json of the whole film tells it.
     std::string place() const;
@@ -60,8 +60,8 @@ class ComparedMember {
     double speed() const { return speed_; }  // particle-steps/s
 
   private:
-    std::unique_ptr<RunDriver> driver_;     // for a scene that is run: its driver
-    const RevisitedRun* record_ = nullptr;  // for a run on disk: source_
+    std::unique_ptr<RunDriver> driver_;    // for a scene that is run: its driver
+    const StoredShots* record_ = nullptr;  // for a run on disk: source_
     std::unique_ptr<FrameSource> source_;
     std::optional<FolderLock> folder_;  // lock of the run's folder, once that is made
     RunJson report_;                    // run.json of what is run

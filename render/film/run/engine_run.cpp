@@ -19,7 +19,7 @@
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_request.hpp"
-#include "render/film/sources/revisited_run.hpp"
+#include "render/film/sources/stored_shots.hpp"
 
 namespace grainreel {
 
@@ -273,7 +273,7 @@ void EngineRun::show_progress() {
 bool EngineRun::draw() {
     if (!film_.wanted()) return true;
     constexpr bool replay = false;
-    RevisitedRun source(folder(), {}, replay);
+    StoredShots source(folder(), {}, replay);
     const std::vector<Shot> shots = source.shown_shots();
     if (shots.empty()) return true;
     const auto go_on = [this] { return !desk_.listener.in_a_hurry(); };

@@ -16,8 +16,8 @@
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sampling/timeline.hpp"
+#include "render/film/sources/film_needs.hpp"
 #include "render/film/sources/film_request.hpp"
-#include "render/film/sources/recorded_run.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 
 namespace grainreel {
@@ -155,7 +155,7 @@ std::vector<std::string> FollowJob::warnings() const {
 void FollowJob::open_anew() {
     constexpr bool replay = false;
     const Stopwatch opening;
-    source_ = std::make_unique<RevisitedRun>(returning_->path(), what_.sets, replay);
+    source_ = std::make_unique<StoredShots>(returning_->path(), what_.sets, replay);
     opened_at_ = back_->frames();
     opening_ = opening.seconds();
     since_opened_ = Stopwatch();
@@ -223,7 +223,7 @@ bool FollowJob::work() {
 void FollowJob::finish(End end) {
     const double until = back_->last()->time, wanted = plan_.clock.time(facts_.last);
     desk_.record.drawn = {{what_.from.string(), std::ssize(source_->film().shots()),
-                           source_->record().moments().front().time, until}};
+                           source_->run().moments().front().time, until}};
     RunJson of_run;
     back_->close(of_run);
     source_.reset();

@@ -14,7 +14,7 @@
 #include "render/film/run/folder_film.hpp"
 #include "render/film/run/follow_run.hpp"
 #include "render/film/sampling/film_frames.hpp"
-#include "render/film/sources/revisited_run.hpp"
+#include "render/film/sources/stored_shots.hpp"
 
 namespace grainreel {
 
@@ -60,7 +60,7 @@ class FollowJob final : public FilmRun {
     bool earlier_ = false;  // whether the status is still that of the job before the film began
     Stopwatch idle_;        // since the last moment came
     std::string unsound_;   // why no more moments may be taken
-    std::unique_ptr<RevisitedRun> source_;
+    std::unique_ptr<StoredShots> source_;
     std::int64_t opened_at_ = 0;  // number of moments that source_ knows
     Stopwatch since_opened_;
     double opening_ = 0;       // s that it took to open it

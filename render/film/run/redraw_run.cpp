@@ -28,7 +28,7 @@ void check_out(const FilmRequest& request, const std::filesystem::path& run) {
         throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
 }
 
-std::vector<Frame> moments_of(const std::vector<Shot>& shots, const FilmOfRun& film) {
+std::vector<Frame> moments_of(const std::vector<Shot>& shots, const FilmSchedule& film) {
     std::vector<Frame> moments;
     for (const Shot& shot : shots) moments.push_back(film.moment(shot.step));
     return moments;
@@ -37,22 +37,22 @@ std::vector<Frame> moments_of(const std::vector<Shot>& shots, const FilmOfRun& f
 }  // namespace
 
 RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
-                     RevisitedRun& source)
+                     StoredShots& source)
     : RedrawRun(request, what, listener, source, Folder::made) {}
 
 void RedrawRun::check(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
-                      RevisitedRun& source) {
+                      StoredShots& source) {
     const RedrawRun checked(request, what, listener, source, Folder::none);
 }
 
 RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
-                     RevisitedRun& source, Folder folder)
+                     StoredShots& source, Folder folder)
     : FilmRun(request, listener),
       source_(source),
       scene_(source.scene()),
       kept_alone_(what.every.has_value()) {
-    check_out(request, source.record().frames().folder());
-    check_times(what, source.record().frames(), source.film().moment(source.film().last_step()).time);
+    check_out(request, source.run().path());
+    check_times(what, source.run(), source.film().moment(source.film().last_step()).time);
     if (kept_alone_)
         choose_kept(what);
     else
@@ -66,7 +66,7 @@ RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunL
     film_.use_threads(threads);
     if (folder == Folder::none) return;
     const std::filesystem::path beside =
-        what.beside.empty() ? source.record().frames().folder().parent_path() : what.beside;
+        what.beside.empty() ? source.run().path().parent_path() : what.beside;
     const std::string which = parts_ ? parts_->folder_name() : "-render";
     make_folder({scene_.name + which, beside, request.out, request.force});
 }
@@ -87,7 +87,7 @@ std::vector<Shot> RedrawRun::drawn() const {
 // Chooses the film's pictures between two moments.
 void RedrawRun::choose_pictures(const RenderRequest& what) {
     constexpr double hair = 1e-9;  // s: tolerance of times
-    const FilmOfRun& film = source_.film();
+    const FilmSchedule& film = source_.film();
     const std::vector<Shot> all = film.shots();
     scene_.film.segments = source_.segments();
     for (const Shot& shot : all) {
@@ -100,8 +100,8 @@ void RedrawRun::choose_pictures(const RenderRequest& what) {
                                     what.from ? "--from" : "--to", film.moment(all.front().step).time,
                                     film.moment(all.back().step).time));
     if (shots_.empty())
-        throw UserError(fmt::format("{}: the run came to none of its film's pictures",
-                                    source_.record().frames().folder().string()));
+        throw UserError(
+            fmt::format("{}: the run came to none of its film's pictures", source_.run().path().string()));
     show_what_there_is();
 }
 
@@ -111,7 +111,8 @@ void RedrawRun::show_what_there_is() {
     std::set<std::size_t> uneven;
     for (const Shot& shot : shots_) {
         const std::int64_t step = source_.shown(shot.step);
-        if (step == shot.step && source_.is_brought_back(step) && ++brought_back_ > 0) source_.prove(step);
+        if (step == shot.step && source_.origin_of(step) == Origin::checkpoint && ++brought_back_ > 0)
+            source_.prove(step);
         if (step != shot.step) uneven.insert(static_cast<std::size_t>(shot.segment));
         if (!shown.empty() && step <= shown.back().step) {
             ++left_out_;
@@ -132,7 +133,7 @@ void RedrawRun::show_what_there_is() {
 
 // Chooses frames of the trajectory, which the film shows one after another at its rate.
 void RedrawRun::choose_kept(const RenderRequest& what) {
-    const std::vector<Frame> moments = chosen_moments(what, source_.record().frames());
+    const std::vector<Frame> moments = chosen_moments(what, source_.run());
     const std::optional<FilmSegment> segment = pacing_of(moments, scene_.drive, scene_.film.rate);
     for (const Frame& moment : moments) shots_.push_back({moment.step, 0});
     scene_.film.segments = {segment.value_or(FilmSegment())};
@@ -145,8 +146,7 @@ std::vector<std::string> RedrawRun::warnings() const {
     const auto add = [&](std::vector<std::string> lines) {
         std::move(lines.begin(), lines.end(), std::back_inserter(warnings));
     };
-    if (auto warning = periods_warning(scene, source_.record().frames()))
-        warnings.push_back(std::move(*warning));
+    if (auto warning = periods_warning(scene, source_.run())) warnings.push_back(std::move(*warning));
     if (kept_alone_) {
         add(single_moment_warnings(scene,
                                    "--every draws frames of the trajectory, which are single moments"));
@@ -179,7 +179,7 @@ std::string RedrawRun::caption_of(const Taken& picture) const {
 // The frame of the film's first picture, from which start heights are counted. A film that shows only a part
 // may lack that picture.
 FramePtr RedrawRun::first_of_film(const FrameSource::GoOn& go_on) {
-    if (kept_alone_) return std::make_shared<const Frame>(source_.record().frames().first_whole());
+    if (kept_alone_) return std::make_shared<const Frame>(source_.run().first_whole());
     return source_.grains(source_.shown(source_.film().shots().front().step), go_on);
 }
 
@@ -188,9 +188,8 @@ bool RedrawRun::work() {
     const std::vector<Frame> moments = moments_of(drawn(), source_.film());
     if (parts_ && parts_->is_part()) desk_.record.part = parts_->record();
     desk_.record.scene_file = scene_.file;
-    desk_.record.drawn = {{source_.record().frames().folder().string(),
-                           static_cast<std::int64_t>(moments.size()), moments.front().time,
-                           moments.back().time}};
+    desk_.record.drawn = {{source_.run().path().string(), static_cast<std::int64_t>(moments.size()),
+                           moments.front().time, moments.back().time}};
     begin_record(warnings());
     if (brought_back_ > 0)
         desk_.listener.info(fmt::format(
@@ -231,8 +230,8 @@ bool RedrawRun::work() {
 }
 
 void RedrawRun::identify_part() {
-    const RunArchive& run = source_.record().frames();
-    desk_.record.part->run = checksum_of_run(run, checksum_of_file(run.folder() / "scene.toml"));
+    const StoredRun& run = source_.run();
+    desk_.record.part->run = checksum_of_run(run, checksum_of_file(run.path() / "scene.toml"));
     desk_.record.part->settings = checksum_of_settings(scene_, shots_, captions_);
 }
 
@@ -248,12 +247,12 @@ std::string RedrawRun::stopped_text() const {
 }
 
 void RedrawRun::report_written() {
-    const FilmOfRun& film = source_.film();
+    const FilmSchedule& film = source_.film();
     const std::vector<Shot> shots = drawn();
     desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
     desk_.listener.info(
         fmt::format("took {}: {} of {}, from {:.6g} to {:.6g} s", duration_text(desk_.watch.seconds()),
-                    counted(film_.result().frames, "frame"), source_.record().frames().folder().string(),
+                    counted(film_.result().frames, "frame"), source_.run().path().string(),
                     film.moment(shots.front().step).time, film.moment(shots.back().step).time));
 }
 

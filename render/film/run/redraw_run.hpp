@@ -8,7 +8,7 @@
 
 #include "render/film/run/film_in_parts.hpp"
 #include "render/film/run/folder_film.hpp"
-#include "render/film/sources/revisited_run.hpp"
+#include "render/film/sources/stored_shots.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -17,15 +17,15 @@ class RedrawRun final : public FilmRun {
   public:
     // Throws UserError, before anything is written, when options are wrong.
     RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
-              RevisitedRun& source);
+              StoredShots& source);
     // Throws the same errors and does nothing else.
     static void check(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
-                      RevisitedRun& source);
+                      StoredShots& source);
 
   private:
     enum class Folder { none, made };
     RedrawRun(const FilmRequest& request, const RenderRequest& what, RunListener& listener,
-              RevisitedRun& source, Folder folder);
+              StoredShots& source, Folder folder);
     bool work() override;
     std::string stopped_text() const override;
     void report_written() override;
@@ -41,7 +41,7 @@ class RedrawRun final : public FilmRun {
     std::vector<std::string> warnings() const;
     std::string caption_of(const Taken& picture) const;
 
-    RevisitedRun& source_;
+    StoredShots& source_;
     FilmedScene scene_;        // the run's scene, with a film of these pictures
     std::vector<Shot> shots_;  // the film's shots, each at the step that is shown
     std::optional<FilmInParts> parts_;

@@ -54,32 +54,32 @@ struct Chosen {
 
 // Chooses the moment. A kept moment may stand for the wanted one only if it is no farther from it in time
 // than kept moments are from each other.
-Chosen choose(const RenderRequest& what, const RevisitedRun& source) {
-    const RecordedRun& run = source.record();
+Chosen choose(const RenderRequest& what, const StoredShots& source) {
+    const StoredRun& run = source.run();
     MomentRequest request{.at = what.at, .frame = what.frame, .frame_of_file = what.frame_of_file};
-    request.held = [holds = CaptionHolds(run.scene().film)](double time) mutable {
+    request.held = [holds = CaptionHolds(source.scene().film)](double time) mutable {
         return holds.begin_at(time);
     };
-    const AskedMoment asked = MomentFinder(run.record()).find(request);
+    const AskedMoment asked = find_moment(run, request);
     Chosen chosen{source.shown(asked.step), "", std::nullopt};
     const double time = source.film().moment(chosen.step).time;
     if (chosen.step != asked.step) {
         const std::string lack =
             fmt::format("{}: {:.6g} s was not kept ({})", what.frame ? "--frame" : "--at",
                         what.at.value_or(asked.time), source.why_not_all());
-        if (std::abs(time - asked.time) > run.frames().mean_interval())
+        if (std::abs(time - asked.time) > run.mean_interval())
             throw UserError(
                 fmt::format("{}; the kept moment nearest to it is {:.6g} s, too far away to stand "
                             "for it; choose that one",
                             lack, time));
         chosen.instead = fmt::format("{}; {:.6g} s is drawn, the kept moment that is nearest", lack, time);
     }
-    const std::size_t index = run.frames().nearest(time);
+    const std::size_t index = run.nearest(time);
     if (run.moments()[index].step == chosen.step)
         chosen.from = fmt::format("frame {} of {} of trajectory.nc", index + 1, run.moments().size());
     else
-        chosen.from =
-            source.is_brought_back(chosen.step) ? "brought back from a checkpoint" : "from film_moments.nc";
+        chosen.from = source.origin_of(chosen.step) == Origin::checkpoint ? "brought back from a checkpoint"
+                                                                          : "from film_moments.nc";
     return chosen;
 }
 
@@ -89,7 +89,7 @@ ReplayWatcher watcher_of(RunListener& listener) {
 
 // Steps of the film's pictures before `step`, back to where its trails begin. Those that cannot be had are
 // left out.
-std::vector<std::int64_t> before(std::int64_t step, double duration, const RevisitedRun& source) {
+std::vector<std::int64_t> before(std::int64_t step, double duration, const StoredShots& source) {
     constexpr double room = 1.001;
     std::vector<std::int64_t> steps;
     const double from = source.film().moment(step).time - room * duration;
@@ -101,12 +101,11 @@ std::vector<std::int64_t> before(std::int64_t step, double duration, const Revis
 
 // Gives the renderer what the picture shows of the film before it: where grains were at first, and trails.
 // Returns false when told to stop.
-bool remember_what_was(Renderer& renderer, std::int64_t step, RevisitedRun& source,
+bool remember_what_was(Renderer& renderer, std::int64_t step, StoredShots& source,
                        const FrameSource::GoOn& go_on) {
     const std::vector<Shot> film = source.film().shots();
-    const FramePtr start = film.empty()
-                               ? std::make_shared<const Frame>(source.record().frames().first_whole())
-                               : source.grains(source.shown(film.front().step), go_on);
+    const FramePtr start = film.empty() ? std::make_shared<const Frame>(source.run().first_whole())
+                                        : source.grains(source.shown(film.front().step), go_on);
     if (!start) return false;
     renderer.start_from(*start);
     const FilmTrails& trails = source.scene().film.shows.trails;
@@ -136,7 +135,7 @@ void check_still(const FilmRequest& request, const RenderRequest& what) {
 }
 
 std::optional<fs::path> draw_still(const FilmRequest& request, const RenderRequest& what,
-                                   RunListener& listener, RevisitedRun& source) {
+                                   RunListener& listener, StoredShots& source) {
     check_still(request, what);
     const Chosen chosen = choose(what, source);
     for (const std::string& line : source.news()) listener.warning(line);
@@ -145,7 +144,7 @@ std::optional<fs::path> draw_still(const FilmRequest& request, const RenderReque
     source.watch_replay(watcher_of(listener));
     const auto go_on = [&] { return listener.stop_signal() == 0; };
     // A moving camera stands where it would be in the film.
-    const FilmOfRun::Place place = source.film().place_of(chosen.step);
+    const FilmSchedule::Place place = source.film().place_of(chosen.step);
     FilmedScene scene = source.scene();
     fit_to_paper(scene.film, what.print);
     settle_orbit(scene.film.camera, static_cast<double>(source.film().shots().size()) / scene.film.rate);
@@ -155,7 +154,7 @@ std::optional<fs::path> draw_still(const FilmRequest& request, const RenderReque
     source.start({{chosen.step, place.segment}}, source.segments());
     const std::optional<Taken> picture = source.next(go_on);
     if (!picture) return std::nullopt;
-    const fs::path run = source.record().frames().folder();
+    const fs::path run = source.run().path();
     const fs::path beside = what.beside.empty() ? run.parent_path() : what.beside;
     const fs::path path = request.out ? *request.out : free_name(scene, beside, picture->frame->time);
     write_png(path, renderer.draw(*picture->frame, "", place.time),

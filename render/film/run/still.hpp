@@ -7,7 +7,7 @@
 
 #include "engine/run/folder/listener.hpp"
 #include "render/film/sources/film_request.hpp"
-#include "render/film/sources/revisited_run.hpp"
+#include "render/film/sources/stored_shots.hpp"
 
 namespace grainreel {
 
@@ -16,7 +16,7 @@ namespace grainreel {
 // asked to stop. Throws UserError, with nothing written, when the run has no such moment, or when the file
 // exists and may not be replaced, or cannot be written.
 std::optional<std::filesystem::path> draw_still(const FilmRequest& request, const RenderRequest& what,
-                                                RunListener& listener, RevisitedRun& source);
+                                                RunListener& listener, StoredShots& source);
 
 // Throws UserError where --out names no PNG file, or one that exists and may not be replaced.
 void check_still(const FilmRequest& request, const RenderRequest& what);

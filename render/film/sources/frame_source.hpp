@@ -1,5 +1,5 @@
 // A source of frames for pictures: a scene that is being run (SceneRun) or a run that lies on disk
-// (RevisitedRun). Code that draws or looks at frames takes them from here and need not know
+// (StoredShots). Code that draws or looks at frames takes them from here and need not know
 // which of the two it is.
 //
 // Each frame comes with all that the scene's film shows besides the grains. PictureParts adds it, from what

@@ -18,7 +18,6 @@ namespace grainreel {
 
 PictureParts::PictureParts(const FilmedScene& scene, const Clock& clock, std::int64_t first)
     : shows_(scene.film.shows),
-      wear_(shows_wear(scene)),
       clock_(clock),
       first_(first),
       depth_(scene.container.periodic_depth ? scene.container.depth : 0) {}
@@ -54,32 +53,30 @@ std::vector<WantedMoment> PictureParts::moments(std::int64_t step, const FilmSeg
     return all;
 }
 
-void PictureParts::add(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const {
+void PictureParts::add(Frame& frame, const FilmSegment& rule, int periods, Beside beside,
+                       const OtherMoments& others) const {
     for (const std::int64_t step : earlier(frame.step, periods))
-        if (const FramePtr before = supply.at(step)) set_displacement(frame, *before, periods, depth_);
+        if (const FramePtr before = others(step)) set_displacement(frame, *before, periods, depth_);
     for (const std::int64_t step : exposed(frame.step, rule, periods))
-        if (FramePtr moment = supply.at(step)) frame.exposed.push_back(std::move(moment));
-    if (needs_touches(shows_)) frame.touches = supply.touches(frame);
-    if (wear_) frame.worn = supply.worn(frame);
-    if (shows_.outflow) frame.flowed_out = supply.flowed_out(frame);
-    if (needs_measures(shows_)) {
-        PartSupply::Measured measured = supply.measured(frame);
-        frame.measures = std::move(measured.table);
-        frame.measure_rows = measured.rows;
-    }
-    add_mean(frame, rule, periods, supply);
+        if (FramePtr moment = others(step)) frame.exposed.push_back(std::move(moment));
+    frame.touches = std::move(beside.touches);
+    frame.worn = std::move(beside.worn);
+    frame.flowed_out = beside.flowed_out;
+    frame.measures = std::move(beside.measures);
+    frame.measure_rows = beside.measure_rows;
+    add_mean(frame, rule, periods, others);
 }
 
 // Adds the mean. Before the run's first step the grains are taken to have been where they were at that step.
 void PictureParts::add_mean(Frame& frame, const FilmSegment& rule, int periods,
-                            const PartSupply& supply) const {
+                            const OtherMoments& others) const {
     const std::vector<std::int64_t> steps = averaged(frame.step, rule, periods);
     if (steps.empty()) return;
     const auto own = std::make_shared<const Frame>(places_of(frame));
     std::vector<FramePtr> moments;
     for (const std::int64_t step : steps) {
         const std::int64_t from = std::max(step, first_);
-        moments.push_back(from == frame.step ? own : supply.at(from));
+        moments.push_back(from == frame.step ? own : others(from));
         if (!moments.back()) return;
     }
     set_mean(frame, moments, static_cast<double>(frame.step - steps.front()) * clock_.step, depth_);
@@ -116,13 +113,21 @@ std::optional<Taken> EarlierPictures::next() {
                                        [](const Shot& one, std::int64_t step) { return one.step < step; });
     GRAINREEL_CHECK(shot != shots_.end() && shot->step == frame.step);
     const int periods = periods_at(frame.step);
-    parts_.add(frame, scene_.film.segments.at(static_cast<std::size_t>(shot->segment)), periods, *this);
+    parts_.add(frame, scene_.film.segments.at(static_cast<std::size_t>(shot->segment)), periods,
+               beside(frame), [](std::int64_t) { return FramePtr(); });
     return Taken{std::make_shared<const Frame>(std::move(frame)), shot->segment, periods};
 }
 
-PartSupply::Measured EarlierPictures::measured(const Frame& frame) const {
-    const auto after = std::upper_bound(steps_.begin(), steps_.end(), static_cast<double>(frame.step));
-    return {measures_, static_cast<std::size_t>(after - steps_.begin())};
+Beside EarlierPictures::beside(const Frame& frame) const {
+    Beside all;
+    if (needs_measures(scene_.film.shows)) {
+        const auto after = std::upper_bound(steps_.begin(), steps_.end(), static_cast<double>(frame.step));
+        all.measures = measures_;
+        all.measure_rows = static_cast<std::size_t>(after - steps_.begin());
+    }
+    if (wear_) all.worn = wear_->until(frame.time);
+    if (scene_.film.shows.outflow) all.flowed_out = files_.flowed_out(frame.time);
+    return all;
 }
 
 // The periods that the run had found by that step, or the number that the scene sets.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,25 +26,17 @@
 
 namespace grainreel {
 
-// What PictureParts asks a source for.
-class PartSupply {
-  public:
-    struct Measured {
-        std::shared_ptr<const MeasureTable> table;  // null for none
-        std::size_t rows = 0;                       // number of rows up to the frame
-    };
-
-    virtual ~PartSupply() = default;
-    // Grains and bodies at a step; null when they cannot be had.
-    virtual FramePtr at(std::int64_t step) const = 0;
-    // These tell what is known about the moment of the frame.
-    virtual std::vector<Touch> touches(const Frame& frame) const = 0;
-    virtual Measured measured(const Frame& frame) const = 0;
+// What is known about a picture's moment beside its grains, as far as the film shows it.
+struct Beside {
+    std::vector<Touch> touches{};
+    std::shared_ptr<const MeasureTable> measures{};  // null for none
+    std::size_t measure_rows = 0;                    // number of rows up to the moment
     // What the grains do to the meshes, one entry for each mesh; null when that is not known.
-    virtual std::shared_ptr<const std::vector<MeshWear>> worn(const Frame&) const { return nullptr; }
-    // What has left the run up to the frame; none when that is not known.
-    virtual std::optional<FlowedOut> flowed_out(const Frame& frame) const = 0;
+    std::shared_ptr<const std::vector<MeshWear>> worn{};
+    std::optional<FlowedOut> flowed_out{};  // what has left the run up to the moment
 };
+// Grains and bodies at a step; null when they cannot be had.
+using OtherMoments = std::function<FramePtr(std::int64_t step)>;
 
 class PictureParts {
   public:
@@ -55,9 +48,10 @@ class PictureParts {
     // itself.
     std::vector<WantedMoment> moments(std::int64_t step, const FilmSegment& rule, int periods) const;
 
-    // Adds the parts that the source can supply. A grain that is missing at an earlier moment gets no
-    // displacement or no mean.
-    void add(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const;
+    // Adds what is beside the moment, and what others() can give. A grain that is missing at an earlier
+    // moment gets no displacement or no mean.
+    void add(Frame& frame, const FilmSegment& rule, int periods, Beside beside,
+             const OtherMoments& others) const;
 
   private:
     // Steps of the moments that displacements, the exposure and the mean need; empty when the picture has no
@@ -65,10 +59,9 @@ class PictureParts {
     std::vector<std::int64_t> earlier(std::int64_t step, int periods) const;
     std::vector<std::int64_t> exposed(std::int64_t step, const FilmSegment& rule, int periods) const;
     std::vector<std::int64_t> averaged(std::int64_t step, const FilmSegment& rule, int periods) const;
-    void add_mean(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const;
+    void add_mean(Frame& frame, const FilmSegment& rule, int periods, const OtherMoments& others) const;
 
     FilmShows shows_;
-    bool wear_;  // whether walls are coloured by wear
     Clock clock_;
     std::int64_t first_;
     double depth_;  // m, period of a periodic container along x; 0 for none
@@ -76,7 +69,7 @@ class PictureParts {
 
 // Gives the pictures that the film of a resumed run had taken before the run was broken off, from the moments
 // that were kept for them.
-class EarlierPictures final : private PartSupply {
+class EarlierPictures {
   public:
     // run: the run's folder. shots: those of the film. count: how many of the kept moments are pictures of
     // the film. measures: rows of the run, with the columns that the film shows; null if it shows none.
@@ -90,15 +83,7 @@ class EarlierPictures final : private PartSupply {
     std::optional<Taken> next();
 
   private:
-    FramePtr at(std::int64_t) const override { return nullptr; }
-    std::vector<Touch> touches(const Frame&) const override { return {}; }
-    Measured measured(const Frame& frame) const override;
-    std::optional<FlowedOut> flowed_out(const Frame& frame) const override {
-        return files_.flowed_out(frame.time);
-    }
-    std::shared_ptr<const std::vector<MeshWear>> worn(const Frame& frame) const override {
-        return wear_ ? wear_->until(frame.time) : nullptr;
-    }
+    Beside beside(const Frame& frame) const;
     int periods_at(std::int64_t step) const;
 
     const FilmedScene& scene_;

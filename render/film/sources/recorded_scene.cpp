@@ -9,6 +9,7 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/import/import_ranges.hpp"
+#include "engine/state/checkpoint_file.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/purposes.hpp"
 
@@ -93,6 +94,26 @@ FilmedScene scene_of_checkpoint_to_draw(const fs::path& checkpoint, const Assign
     FilmedScene scene = read_filmed_scene_text(text.text, text.file, all, measurable_in);
     scene.name = checkpoint.stem().string();
     return scene;
+}
+
+FilmedRun open_filmed(const fs::path& path, const Assignments& sets, StoredRunRequest request) {
+    FilmedRun filmed;
+    bool has_scene = is_checkpoint(path);
+    if (has_scene) filmed.scene = scene_of_checkpoint_to_draw(path, sets);
+    request.scene_of_run = [&](const fs::path& folder) -> Scene {
+        has_scene = true;
+        return filmed.scene = scene_of_run(folder, sets);
+    };
+    filmed.run = std::make_unique<StoredRun>(path, request);
+    if (!has_scene && !sets.empty())
+        throw UserError(fmt::format("{}: there is no scene.toml beside {}, so nothing of it can be set",
+                                    sets.front().place(), path.string()));
+    if (!has_scene) {
+        static_cast<Scene&>(filmed.scene) = filmed.run->known_scene();
+        filmed.scene.colours.resize(filmed.scene.species.size());
+    }
+    if (filmed.scene.film.periods > 0) filmed.run->set_periods(filmed.scene.film.periods);
+    return filmed;
 }
 
 namespace {

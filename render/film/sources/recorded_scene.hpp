@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "engine/files/frames/frame_archive.hpp"
+#include "engine/run/stored/stored_run.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -22,6 +24,18 @@ FilmedScene scene_of_run(const std::filesystem::path& folder, const Assignments&
 // The scene of a checkpoint as it was used, with changes to the drawing; named after the file. Throws
 // UserError as above.
 FilmedScene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
+
+// A run on disk, or a single state of one, with the film by which it is drawn.
+struct FilmedRun {
+    std::unique_ptr<StoredRun> run;
+    FilmedScene scene;
+};
+// Opens a run's folder, a single state, or files of another program, with changes to the drawing. The scene
+// of a folder is named after it. A checkpoint holds its scene. A table of grains takes the scene.toml beside
+// it; without one its species are "type 1", "type 2" and so on, of unknown density, in no container. Throws
+// UserError as above and as StoredRun does. request.scene_of_run is not used.
+FilmedRun open_filmed(const std::filesystem::path& path, const Assignments& sets,
+                      StoredRunRequest request = {});
 
 // How high the grains of a finished run got, in m above the floor's rest position: in every frame 99 of 100
 // grains lie entirely below this height. Of a long trajectory with many grains only some evenly spread frames

@@ -7,34 +7,10 @@
 #include "engine/files/run_names.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
+#include "engine/mesh/surface.hpp"
+#include "engine/run/stored/stored_run.hpp"
 
 namespace grainreel {
-
-// What pictures may take from the run. Of other moments it has those that were kept for pictures.
-class SceneRun::Parts final : public PartSupply {
-  public:
-    Parts(const RunDriver& driver, std::shared_ptr<const std::vector<MeshWear>> worn)
-        : driver_(driver), worn_(std::move(worn)) {}
-    FramePtr at(std::int64_t step) const override { return driver_.kept(step); }
-    std::vector<Touch> touches(const Frame&) const override {
-        std::vector<Touch> touches;
-        for (const SavedContact& contact : driver_.simulation().contacts())
-            touches.push_back({contact.first, contact.second, contact.normal});
-        return touches;
-    }
-    Measured measured(const Frame&) const override {
-        const std::shared_ptr<const MeasureTable> table = driver_.files()->measures();
-        return {table, table->rows()};
-    }
-    std::shared_ptr<const std::vector<MeshWear>> worn(const Frame&) const override { return worn_; }
-    std::optional<FlowedOut> flowed_out(const Frame& frame) const override {
-        return driver_.files()->flowed_out(frame.time);
-    }
-
-  private:
-    const RunDriver& driver_;
-    const std::shared_ptr<const std::vector<MeshWear>> worn_;
-};
 
 Span SceneRun::span() const {
     return {driver_.plan().clock.time(driver_.first_step()), scene_.run.duration};
@@ -111,9 +87,23 @@ std::optional<Taken> SceneRun::next(const GoOn& go_on) {
     earlier_.reset();
     const std::shared_ptr<Frame> frame = driver_.next(go_on);
     if (!frame) return std::nullopt;
-    parts_->add(*frame, rule(segments_waiting_.back()), bed_periods_->shown(), Parts(driver_, worn_));
+    parts_->add(*frame, rule(segments_waiting_.back()), bed_periods_->shown(), beside(*frame),
+                [this](std::int64_t step) { return driver_.kept(step); });
     frame_ = frame;
     return waiting();
+}
+
+Beside SceneRun::beside(const Frame& frame) const {
+    const FilmShows& shows = scene_.film.shows;
+    Beside all;
+    if (needs_touches(shows)) all.touches = touches_of(driver_.simulation());
+    if (needs_measures(shows)) {
+        all.measures = driver_.files()->measures();
+        all.measure_rows = all.measures->rows();
+    }
+    if (shows_wear(scene_)) all.worn = worn_;
+    if (shows.outflow) all.flowed_out = driver_.files()->flowed_out(frame.time);
+    return all;
 }
 
 std::optional<Taken> SceneRun::waiting() {

@@ -45,8 +45,6 @@ class SceneRun final : public FrameSource {
     bool has_shots(const Pictures& pictures) const { return !shots_of(pictures).empty(); }
 
   private:
-    class Parts;  // what pictures may take from the run
-
     std::vector<Shot> shots_of(const Pictures& pictures) const;
     FrameWishes wishes();
     KeptMoments wanted_moments() const;
@@ -54,6 +52,7 @@ class SceneRun final : public FrameSource {
     // Whether the film leaves that step out, by what is known so far of the bed's periods. Also notes the
     // pictures of the step that the film shows (segments_waiting_).
     bool leaves_out(std::int64_t step);
+    Beside beside(const Frame& frame) const;
     void look_at_bed_periods(const Simulation& simulation);
     void look_at_wear(const Simulation& simulation);
     void read_wear_before();

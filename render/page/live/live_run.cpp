@@ -15,7 +15,7 @@
 #include "engine/measure/columns.hpp"
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_file.hpp"
-#include "render/film/sources/recorded_run.hpp"
+#include "render/film/sources/recorded_scene.hpp"
 #include "render/page/embed.hpp"
 #include "render/page/facts/page_facts.hpp"
 #include "render/page/page_film.hpp"
@@ -141,20 +141,22 @@ void LiveRun::read_bed_again() {
     const fs::file_time_type time = changed(folder_ / "trajectory.nc");
     if (time == trajectory_time_ || time == fs::file_time_type::min()) return;
     try {
-        const RecordedRun run(folder_, {});
+        StoredRunRequest request;
+        request.contacts = false;
+        const FilmedRun filmed = open_filmed(folder_, {}, request);
+        const StoredRun& run = *filmed.run;
         const std::vector<Frame>& moments = run.moments();
         trajectory_time_ = time;
         if (moments.back().step == bed_step_) return;
         std::optional<FilmColours> film;
-        if (film_has_scale(run.scene()))
-            film.emplace(run.scene(), run.frames(), run.clock(), run.span().from);
+        if (film_has_scale(filmed.scene)) film.emplace(filmed.scene, run, run.clock(), run.from());
         BedContacts beside;
         beside.film = film ? &*film : nullptr;
-        const BedFrames bed = bed_frames_of(run.frames(), shown_of(moments.size()), kNoPageProgress, beside);
-        make_meshes(run.scene());
+        const BedFrames bed = bed_frames_of(run, shown_of(moments.size()), kNoPageProgress, beside);
+        make_meshes(filmed.scene);
         bed_step_ = moments.back().step;
         bed_time_ = moments.back().time;
-        auto bytes = shared(with_length(bed_facts_json(run.scene(), bed, *meshes_), bed.packed));
+        auto bytes = shared(with_length(bed_facts_json(filmed.scene, bed, *meshes_), bed.packed));
         const std::scoped_lock lock(mutex_);
         now_.bed = std::move(bytes);
     } catch (const UserError&) {

@@ -17,7 +17,7 @@
 
 #include "engine/questions/asked_moment.hpp"
 #include "render/film/answers/pictured_answer.hpp"
-#include "render/film/sources/recorded_run.hpp"
+#include "render/film/sources/recorded_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/temporary_folder.hpp"
 
@@ -128,11 +128,12 @@ TEST_P(PixelOfTheFilm, IsOfTheGrainThatThePictureShows) {
     ASSERT_EQ(movie.status, 0) << movie.err;
     const Pixels picture = read_picture(here / "run/frames" / fmt::format("{:06}.png", shown_frame));
 
-    const RecordedRun record(here / "run", {}, true);
-    MomentFinder finder(record.record());
-    const Snapshot snapshot =
-        finder.brought_back(finder.find({.frame = shown_frame}), [](double) { return true; });
-    const PixelPicker picker(snapshot, record.scene(), shown_frame / record.scene().film.rate);
+    StoredRunRequest request;
+    request.threads = 1;
+    const FilmedRun filmed = open_filmed(here / "run", {}, request);
+    const Snapshot snapshot = brought_back_snapshot(
+        *filmed.run, find_moment(*filmed.run, {.frame = shown_frame}), [](double) { return true; });
+    const PixelPicker picker(snapshot, filmed.scene, shown_frame / filmed.scene.film.rate);
     std::mt19937 random(11);
     std::uniform_int_distribution<int> across(2, width - 3), down(2, height - 3);
     int grains = 0, nothing = 0;

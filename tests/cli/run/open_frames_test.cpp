@@ -74,7 +74,8 @@ class OpenFrames : public testing::Test {
 };
 
 TEST_F(OpenFrames, OfARunsFolderHasAllThatLiesThere) {
-    const auto frames = open_frames(run());
+    const auto frames = std::make_unique<StoredRun>(run());
+    expect_same_grains(open_frames(run())->grains(4), frames->grains(4));
     EXPECT_EQ(frames->moments().size(), 5u);
     EXPECT_THAT(names_of(frames->world()), ElementsAre("small", "big"));
     EXPECT_NEAR(frames->world().species[0].density, 2500, 1e-9);
@@ -258,12 +259,11 @@ class Foreign final : public FrameArchive {
 };
 
 TEST(FrameArchives, WithoutASceneAnswerQuestions) {
-    const AskedRun record(std::make_shared<const Foreign>());
-    EXPECT_TRUE(record.checkpoints().empty());
-    const MomentFinder finder(record);
-    const AskedMoment asked = finder.find({});
+    const StoredRun run(std::make_shared<const Foreign>());
+    EXPECT_TRUE(run.checkpoints().empty());
+    const AskedMoment asked = find_moment(run, {});
     EXPECT_EQ(asked.nearest, 2u);
-    const Answer answer = where_answer(finder.kept(asked.nearest), "species == gravel", 10);
+    const Answer answer = where_answer(kept_snapshot(run, asked.nearest), "species == gravel", 10);
     EXPECT_THAT(grains_in(answer), ElementsAre(5, 11));
 }
 

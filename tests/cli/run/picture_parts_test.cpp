@@ -35,37 +35,13 @@ Vec3 at_rest(std::int64_t) {
     return Vec3::Zero();
 }
 
-// A source that has only moments.
-class Moments : public PartSupply {
-  public:
-    std::vector<Touch> touches(const Frame&) const override { return {}; }
-    Measured measured(const Frame&) const override { return {}; }
-    std::optional<FlowedOut> flowed_out(const Frame&) const override { return std::nullopt; }
-};
-
 // A source that has every moment from `first` on, as a record has.
-class AnyMoment final : public Moments {
-  public:
-    AnyMoment(PlaceAt grain, PlaceAt wall, std::int64_t first)
-        : grain_(std::move(grain)), wall_(std::move(wall)), first_(first) {}
-    FramePtr at(std::int64_t step) const override {
-        if (step < first_) return nullptr;
-        return std::make_shared<const Frame>(frame_at(step, grain_(step), wall_(step)));
-    }
-
-  private:
-    PlaceAt grain_, wall_;
-    std::int64_t first_;
-};
-
-class Kept final : public Moments {
-  public:
-    explicit Kept(const KeptMoments& kept) : kept_(kept) {}
-    FramePtr at(std::int64_t step) const override { return kept_.at(step); }
-
-  private:
-    const KeptMoments& kept_;
-};
+OtherMoments any_moment(PlaceAt grain, PlaceAt wall, std::int64_t first) {
+    return [=](std::int64_t step) -> FramePtr {
+        if (step < first) return nullptr;
+        return std::make_shared<const Frame>(frame_at(step, grain(step), wall(step)));
+    };
+}
 
 FilmedScene scene_with_displacements(double periodic_depth = 0) {
     FilmedScene scene;
@@ -91,12 +67,12 @@ struct Asked {
 Frame picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grain,
               const PlaceAt& wall = at_rest, std::int64_t first = 0) {
     Frame at_will = frame_at(asked.shot, grain(asked.shot), wall(asked.shot)), passing = at_will;
-    parts.add(at_will, asked.rule, asked.periods, AnyMoment(grain, wall, first));
+    parts.add(at_will, asked.rule, asked.periods, {}, any_moment(grain, wall, first));
     KeptMoments kept;
     for (const int periods : {1, 2}) kept.want(asked.shot, parts.moments(asked.shot, asked.rule, periods));
     for (std::int64_t step = first; step <= asked.shot; ++step)
         kept.keep(frame_at(step, grain(step), wall(step)));
-    parts.add(passing, asked.rule, asked.periods, Kept(kept));
+    parts.add(passing, asked.rule, asked.periods, {}, [&](std::int64_t step) { return kept.at(step); });
     EXPECT_EQ(passing.position, at_will.position);
     EXPECT_EQ(passing.velocity, at_will.velocity);
     EXPECT_EQ(passing.displacement, at_will.displacement);
@@ -240,7 +216,7 @@ TEST(PictureParts, OfAMeanTakeTheBedToHaveRestedBeforeTheRun) {
 TEST(PictureParts, LeaveOutWhatIsNotToBeHad) {
     const PictureParts parts(scene_with_displacements(), kClock, 0);
     Frame now = frame_at(1600, Vec3(1, 2, 3));
-    parts.add(now, mean_of(1), 1, AnyMoment(at_rest, at_rest, 1500));
+    parts.add(now, mean_of(1), 1, {}, any_moment(at_rest, at_rest, 1500));
     EXPECT_EQ(now.position[0], Vec3(1, 2, 3));
     EXPECT_TRUE(now.displacement.empty());
 }
@@ -254,18 +230,11 @@ TEST(PictureParts, LeaveOutWaysOfGrainsThatHaveComeOrGone) {
         frame.velocity.emplace_back(0, 0, 0);
         return frame;
     };
-    class WithAnother final : public Moments {
-      public:
-        explicit WithAnother(std::function<Frame(std::int64_t)> at) : at_(std::move(at)) {}
-        FramePtr at(std::int64_t step) const override { return std::make_shared<const Frame>(at_(step)); }
-
-      private:
-        std::function<Frame(std::int64_t)> at_;
+    const OtherMoments before = [&](std::int64_t step) {
+        return std::make_shared<const Frame>(with(frame_at(step, Vec3(0, 0, 1)), 1, Vec3(7, 8, 9)));
     };
-    const WithAnother before(
-        [&](std::int64_t step) { return with(frame_at(step, Vec3(0, 0, 1)), 1, Vec3(7, 8, 9)); });
     Frame now = with(frame_at(1600, Vec3(0, 0, 3)), 2, Vec3(4, 5, 6));
-    parts.add(now, mean_of(1), 1, before);
+    parts.add(now, mean_of(1), 1, {}, before);
     EXPECT_EQ(now.position[1], Vec3(4, 5, 6));
     EXPECT_EQ(now.velocity[1], Vec3(0, 0, 0));
     EXPECT_LT(now.position[0].z(), 3) << "a mean with where it was before";

@@ -1,6 +1,6 @@
 // Tests of runs on disk as sources of frames: what they supply, files that do not belong together, files that
 // lack something, and files that grow.
-#include "render/film/sources/revisited_run.hpp"
+#include "render/film/sources/stored_shots.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -146,9 +146,9 @@ TEST_F(Recorded, MeasuresThatAreMissingOrEmptyAreNamed) {
 
 TEST_F(Recorded, GivesItsFramesInAnyOrder) {
     run("run", {"film.colour.by=displacement", "film.force_chains=true", "film.text=mixing {lacey}"});
-    RecordedRun record(here / "run", {});
-    const FrameArchive& archive = record.frames();
-    RevisitedRun film(here / "run", {}, false);
+    StoredShots film(here / "run", {}, false);
+    const StoredShots& record = film;
+    const FrameArchive& archive = film.run();
     EXPECT_FALSE(film.supply().any_moment);
     EXPECT_TRUE(film.supply().contacts && film.supply().measures && !film.supply().orientations);
     ASSERT_EQ(archive.moments().size(), 5u);  // 0.2 s at 20 Hz
@@ -189,7 +189,7 @@ TEST_F(Recorded, GivesItsFramesInAnyOrder) {
 // A record that has every moment of a mean gives the mean.
 TEST_F(Recorded, GivesMeansAndExposuresWhereItHasTheirMoments) {
     run("run", {"output.trajectory_interval=0.003125"});  // 16 a period
-    RevisitedRun record(here / "run", {}, false);
+    StoredShots record(here / "run", {}, false);
     FilmSegment mean, exposed;
     mean.average = 1;
     exposed.exposure = 0.0125;
@@ -216,7 +216,7 @@ TEST_F(Recorded, IsReadWhileItGrows) {
         {here.path(), {}});
     const auto frames = [&]() -> std::size_t {
         try {
-            return RecordedRun(here / "run", {}).moments().size();
+            return StoredShots(here / "run", {}, false).run().moments().size();
         } catch (const UserError&) {
             return 0;  // there is no frame yet
         }
@@ -224,14 +224,14 @@ TEST_F(Recorded, IsReadWhileItGrows) {
     ASSERT_TRUE(wait_until(movie, [&] { return frames() > 5; }));
     std::size_t first = 0, last = 0;
     for (int turn = 0; turn < 20; ++turn) {
-        RecordedRun record(here / "run", {});
-        record.leave_out_damaged();
+        StoredShots record(here / "run", {}, false);
+        record.check_all();
         EXPECT_THAT(record.news(), Not(testing::Contains(HasSubstr("damaged:"))));
-        last = record.moments().size();
+        last = record.run().moments().size();
         if (turn == 0) first = last;
         const Frame frame = record.frame(last - 1);
         EXPECT_FALSE(frame.touches.empty()) << "frame " << last - 1;
-        const double row = record.moments()[last - 1].time / (0.05 / 8);  // the last row at that time
+        const double row = record.run().moments()[last - 1].time / (0.05 / 8);  // the last row at that time
         EXPECT_GE(static_cast<double>(frame.measure_rows), row - 1e-6);
     }
     const Ended film = program({"render", "run", "--out", "film", "--every", "100"});

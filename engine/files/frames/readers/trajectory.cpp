@@ -1,15 +1,20 @@
-// Two readers of our own runs: the folder of a run with all that lies in it, and a trajectory.nc alone. The
-// other files of moments that a run writes have the format of trajectory.nc, so the second reads them too.
+// Two readers of our own runs: the trajectory.nc of a run's folder, with the scene beside it, and a
+// trajectory.nc alone. The other files of moments that a run writes have the format of trajectory.nc, so the
+// second reads them too. StoredRun (engine/run/stored) reads all that lies in a folder.
 
 #include <fmt/format.h>
+#include <optional>
 #include <system_error>
 #include <utility>
 
+#include "engine/base/error.hpp"
 #include "engine/files/frames/frame_archive.hpp"
-#include "engine/files/frames/run_archive.hpp"
+#include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/state/container_faces.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
+#include "engine/state/body.hpp"
 
 namespace grainreel {
 
@@ -19,10 +24,16 @@ namespace fs = std::filesystem;
 
 class Trajectory final : public FrameArchive {
   public:
-    explicit Trajectory(const fs::path& path) : path_(path), reader_(path), world_(world_of(reader_.info())) {
+    // path: the file, or the folder of a run with its scene.
+    Trajectory(const fs::path& path, const fs::path& file, std::optional<Scene> scene)
+        : path_(path), reader_(file), scene_(std::move(scene)), world_(world_of(reader_.info())) {
+        if (reader_.frames() == 0 && scene_)
+            throw UserError(
+                fmt::format("{}: holds no frame yet; the run was stopped before its first", file.string()));
+        if (scene_) compare_with_scene();
         for (std::size_t place = 0; place < reader_.frames(); ++place) {
             try {
-                moments_.push_back(reader_.read_moment(place));
+                moments_.push_back(with_planes(reader_.read_moment(place)));
                 places_.push_back(place);
             } catch (const DamagedFrame& one) {
                 damage_.emplace_back(one.what());
@@ -39,18 +50,43 @@ class Trajectory final : public FrameArchive {
         return supply;
     }
     const std::vector<Frame>& moments() const override { return moments_; }
-    Frame grains(std::size_t index) const override { return reader_.read(places_.at(index)); }
+    Frame grains(std::size_t index) const override { return with_planes(reader_.read(places_.at(index))); }
+    const Scene* scene() const override { return scene_ ? &*scene_ : nullptr; }
     std::size_t place(std::size_t index) const override { return places_.at(index); }
     std::vector<std::string> damage() const override { return damage_; }
     std::vector<std::string> news() const override {
-        std::vector<std::string> news = faults_of(reader_, path_.string());
+        const std::string name = (scene_ ? path_ / "trajectory.nc" : path_).string();
+        std::vector<std::string> news = faults_of(reader_, name);
+        if (scene_ && !reader_.info().checksums)
+            news.push_back(
+                fmt::format("{}: has no checksums, for an earlier version wrote it; damage that leaves "
+                            "possible numbers would not show",
+                            name));
         news.insert(news.end(), damage_.begin(), damage_.end());
         return news;
     }
 
   private:
+    // What the trajectory says about its world has precedence, because the scene beside it may be of another
+    // run. Then this throws UserError.
+    void compare_with_scene() {
+        const std::string name = (path_ / "trajectory.nc").string();
+        check_species(*scene_, world_, name);
+        check_meshes(*scene_, world_, name);
+        const World in_file = std::exchange(world_, world_of(*scene_));
+        world_.program_version = in_file.program_version;
+        world_.most_grains = in_file.most_grains;
+        world_.traffic = in_file.traffic;
+    }
+
+    Frame with_planes(Frame frame) const {
+        if (scene_) add_planes(scene_->walls, frame.time, frame.bodies);
+        return frame;
+    }
+
     fs::path path_;
     TrajectoryReader reader_;
+    std::optional<Scene> scene_;  // of the folder of a run
     World world_;
     std::vector<Frame> moments_;
     std::vector<std::size_t> places_;  // one for each moment: the number of its frame in the file
@@ -64,7 +100,7 @@ bool takes_trajectory(const FileHead& head) {
 }
 
 std::unique_ptr<FrameArchive> open_trajectory(const fs::path& path, const FrameRequest&) {
-    return std::make_unique<Trajectory>(path);
+    return std::make_unique<Trajectory>(path, path, std::nullopt);
 }
 
 bool takes_run(const FileHead& head) {
@@ -75,13 +111,9 @@ bool takes_run(const FileHead& head) {
 
 std::unique_ptr<FrameArchive> open_run(const fs::path& path, const FrameRequest& request) {
     const fs::path folder = folder_of_run(path);
-    const bool for_questions = true;
-    auto run = std::make_unique<RunArchive>(
-        folder, request.scene_of_run ? request.scene_of_run(folder) : plain_scene_of_run(folder),
-        for_questions);
-    std::error_code ignored;
-    if (fs::exists(folder / "contacts.nc", ignored)) run->read_contacts(true);
-    return run;
+    return std::make_unique<Trajectory>(
+        folder, file_of_run(folder, "trajectory.nc", kWithoutTrajectory),
+        request.scene_of_run ? request.scene_of_run(folder) : plain_scene_of_run(folder));
 }
 
 }  // namespace
