@@ -49,6 +49,22 @@ Simulation nearest_checkpoint(const fs::path& run, const std::vector<KeptCheckpo
                     run.string(), step));
 }
 
+// Goes on to a later step. Throws RunError as replayed() does.
+void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& watcher) {
+    constexpr std::chrono::duration<double> stretch(0.1);
+    const std::int64_t from = simulation.step();
+    std::int64_t steps = 8;  // steps at a time
+    while (simulation.step() < step) {
+        const auto start = std::chrono::steady_clock::now();
+        simulation.advance(std::min(step, simulation.step() + steps));
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        if (took < stretch / 2) steps *= 2;
+        if (took > stretch) steps = std::max<std::int64_t>(1, steps / 2);
+        if (!watcher(static_cast<double>(simulation.step() - from) / static_cast<double>(step - from)))
+            throw RunError("stopped before the moment was reached");
+    }
+}
+
 }  // namespace
 
 Plan plan_of_run(const Scene& scene, const fs::path& run) {
@@ -75,21 +91,6 @@ Simulation replayed(const fs::path& run, const std::vector<KeptCheckpoint>& kept
     Simulation simulation = nearest_checkpoint(run, kept, step, threads);
     replay_on(simulation, step, watcher);
     return simulation;
-}
-
-void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& watcher) {
-    constexpr std::chrono::duration<double> stretch(0.1);
-    const std::int64_t from = simulation.step();
-    std::int64_t steps = 8;  // steps at a time
-    while (simulation.step() < step) {
-        const auto start = std::chrono::steady_clock::now();
-        simulation.advance(std::min(step, simulation.step() + steps));
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        if (took < stretch / 2) steps *= 2;
-        if (took > stretch) steps = std::max<std::int64_t>(1, steps / 2);
-        if (!watcher(static_cast<double>(simulation.step() - from) / static_cast<double>(step - from)))
-            throw RunError("stopped before the moment was reached");
-    }
 }
 
 Replayer::Replayer(std::filesystem::path run, std::vector<KeptCheckpoint> kept, int threads)

@@ -36,9 +36,6 @@ Simulation run_of_checkpoint(const std::filesystem::path& checkpoint, int thread
 Simulation replayed(const std::filesystem::path& run, const std::vector<KeptCheckpoint>& kept,
                     std::int64_t step, int threads, const ReplayWatcher& watcher);
 
-// Goes on to a later step. Throws RunError as replayed() does.
-void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& watcher);
-
 // Brings a run on disk back to one step after the other. Rising steps cost no more than the run itself did
 // from the first to the last of them, because the engine goes on from one to the next.
 class Replayer {

@@ -182,9 +182,8 @@ bool take_moments_of_schedule(Comparison& all) {
     const Clock& clock = all.members[all.reference]->clock();
     if (clock.step <= 0) return false;
     const Span common = common_time(all);
-    const bool any_moment = std::all_of(all.members.begin(), all.members.end(), [](const auto& member) {
-        return member->source().supply().any_moment;
-    });
+    const bool any_moment = std::all_of(all.members.begin(), all.members.end(),
+                                        [](const auto& member) { return member->source().has_any_moment(); });
     FilmedScene film = all.film;
     if (!any_moment) film.film.segments = of_single_moments(segments_of(film.film));
     for (FilmSegment& segment : film.film.segments) segment = spanning(segment, common_periods(all));

@@ -90,7 +90,7 @@ void warn_of_single_moments(Comparison& all) {
             all.warnings.push_back(*warning);
     }
     const bool all_any = std::all_of(all.members.begin(), all.members.end(),
-                                     [](const auto& member) { return member->source().supply().any_moment; });
+                                     [](const auto& member) { return member->source().has_any_moment(); });
     if (all.by_schedule && all_any) return;
     for (const auto& member : all.members) {
         if (!member->run()) continue;

@@ -18,15 +18,6 @@
 
 namespace grainreel {
 
-// What a source can supply besides grains and container. If a film asks for something that its source lacks,
-// the pictures do without it, and news() says so.
-struct Supply {
-    bool any_moment = false;    // it has every step of its span; false: only the moments of its archive
-    bool contacts = false;      // Frame::touches
-    bool measures = false;      // Frame::measures
-    bool orientations = false;  // Frame::orientation
-};
-
 // A span of simulated time in s, both ends included.
 struct Span {
     double from = 0, to = 0;
@@ -55,7 +46,8 @@ class FrameSource {
     virtual ~FrameSource() = default;
 
     virtual const FilmedScene& scene() const = 0;  // the scene as it is drawn
-    virtual Supply supply() const = 0;
+    // Whether it has every step of its span; else only the moments of its archive.
+    virtual bool has_any_moment() const = 0;
     virtual Span span() const = 0;
     // The frames on disk; null for a run that is only being computed.
     virtual const FrameArchive* archive() const { return nullptr; }

@@ -88,7 +88,10 @@ FilmedScene scene_of_run(const fs::path& folder, const Assignments& sets) {
     return scene;
 }
 
-FilmedScene scene_of_checkpoint_to_draw(const fs::path& checkpoint, const Assignments& sets) {
+namespace {
+
+// The scene of a checkpoint as it was used, with changes to the drawing; named after the file.
+FilmedScene scene_to_draw(const fs::path& checkpoint, const Assignments& sets) {
     auto [text, all] = scene_in_checkpoint(checkpoint);
     for (const Assignment& set : sets_for_drawing(sets)) all.push_back(set);
     FilmedScene scene = read_filmed_scene_text(text.text, text.file, all, measurable_in);
@@ -96,10 +99,12 @@ FilmedScene scene_of_checkpoint_to_draw(const fs::path& checkpoint, const Assign
     return scene;
 }
 
+}  // namespace
+
 FilmedRun open_filmed(const fs::path& path, const Assignments& sets, StoredRunRequest request) {
     FilmedRun filmed;
     bool has_scene = is_checkpoint(path);
-    if (has_scene) filmed.scene = scene_of_checkpoint_to_draw(path, sets);
+    if (has_scene) filmed.scene = scene_to_draw(path, sets);
     request.scene_of_run = [&](const fs::path& folder) -> Scene {
         has_scene = true;
         return filmed.scene = scene_of_run(folder, sets);

@@ -21,10 +21,6 @@ Assignments sets_for_drawing(const Assignments& sets);
 // for a scene that cannot be read.
 FilmedScene scene_of_run(const std::filesystem::path& folder, const Assignments& sets);
 
-// The scene of a checkpoint as it was used, with changes to the drawing; named after the file. Throws
-// UserError as above.
-FilmedScene scene_of_checkpoint_to_draw(const std::filesystem::path& checkpoint, const Assignments& sets);
-
 // A run on disk, or a single state of one, with the film by which it is drawn.
 struct FilmedRun {
     std::unique_ptr<StoredRun> run;

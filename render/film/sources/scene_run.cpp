@@ -59,7 +59,7 @@ FrameWishes SceneRun::wishes() {
         look_at_bed_periods(simulation);
         if (shows_wear(scene_)) look_at_wear(simulation);
     };
-    wishes.left_out = [this](std::int64_t step) { return leaves_out(step); };
+    wishes.left_out = [this](std::int64_t step) { return due_at(step).empty(); };
     wishes.kept = wanted_moments();
     wishes.to_file = film_moments_bytes(scene_, driver_.plan(), std::ssize(shots_)) > 0;
     wishes.keep_rows = needs_measures(scene_.film.shows);
@@ -87,7 +87,8 @@ std::optional<Taken> SceneRun::next(const GoOn& go_on) {
     earlier_.reset();
     const std::shared_ptr<Frame> frame = driver_.next(go_on);
     if (!frame) return std::nullopt;
-    parts_->add(*frame, rule(segments_waiting_.back()), bed_periods_->shown(), beside(*frame),
+    waiting_ = due_at(frame->step);
+    parts_->add(*frame, rule(waiting_.back().segment), bed_periods_->shown(), beside(*frame),
                 [this](std::int64_t step) { return driver_.kept(step); });
     frame_ = frame;
     return waiting();
@@ -107,10 +108,10 @@ Beside SceneRun::beside(const Frame& frame) const {
 }
 
 std::optional<Taken> SceneRun::waiting() {
-    if (segments_waiting_.empty()) return std::nullopt;
-    const int segment = segments_waiting_.front();
-    segments_waiting_.erase(segments_waiting_.begin());
-    FramePtr frame = segments_waiting_.empty() ? std::move(frame_) : frame_;
+    if (waiting_.empty()) return std::nullopt;
+    const int segment = waiting_.front().segment;
+    waiting_.erase(waiting_.begin());
+    FramePtr frame = waiting_.empty() ? std::move(frame_) : frame_;
     return Taken{std::move(frame), segment, bed_periods_->shown()};
 }
 
@@ -123,13 +124,13 @@ std::vector<std::string> SceneRun::news() const {
     return news;
 }
 
-bool SceneRun::leaves_out(std::int64_t step) {
-    segments_waiting_.clear();
+std::vector<Shot> SceneRun::due_at(std::int64_t step) const {
+    std::vector<Shot> due;
     auto shot = std::lower_bound(shots_.begin(), shots_.end(), step,
                                  [](const Shot& one, std::int64_t wanted) { return one.step < wanted; });
     for (; shot != shots_.end() && shot->step == step; ++shot)
-        if (bed_periods_->shows(rule(shot->segment), *shot)) segments_waiting_.push_back(shot->segment);
-    return segments_waiting_.empty();
+        if (bed_periods_->shows(rule(shot->segment), *shot)) due.push_back(*shot);
+    return due;
 }
 
 void SceneRun::look_at_bed_periods(const Simulation& simulation) {

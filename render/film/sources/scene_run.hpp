@@ -31,7 +31,7 @@ class SceneRun final : public FrameSource {
     }
 
     const FilmedScene& scene() const override { return scene_; }
-    Supply supply() const override { return {true, true, true, scene_.keeps_orientations()}; }
+    bool has_any_moment() const override { return true; }
     Span span() const override;
     std::vector<Frame> moments(const Pictures& pictures) const override;
     // To be called after packing. Pictures before the run's first step are not given.
@@ -49,9 +49,8 @@ class SceneRun final : public FrameSource {
     FrameWishes wishes();
     KeptMoments wanted_moments() const;
     std::optional<Taken> waiting();  // the next picture of the frame that was taken last
-    // Whether the film leaves that step out, by what is known so far of the bed's periods. Also notes the
-    // pictures of the step that the film shows (segments_waiting_).
-    bool leaves_out(std::int64_t step);
+    // The shots of that step that the film shows, by what is known so far of the bed's periods.
+    std::vector<Shot> due_at(std::int64_t step) const;
     Beside beside(const Frame& frame) const;
     void look_at_bed_periods(const Simulation& simulation);
     void look_at_wear(const Simulation& simulation);
@@ -70,8 +69,8 @@ class SceneRun final : public FrameSource {
     // Pressure and wear of each mesh, as in the last record of fields.nc that has ended.
     std::shared_ptr<const std::vector<MeshWear>> worn_;
     std::optional<EarlierPictures> earlier_;
-    FramePtr frame_;                     // the frame that was taken last
-    std::vector<int> segments_waiting_;  // segments of its pictures that are still to come
+    FramePtr frame_;             // the frame that was taken last
+    std::vector<Shot> waiting_;  // its pictures that are still to come
 };
 
 }  // namespace grainreel

@@ -81,12 +81,6 @@ std::string StoredShots::why_not_all() const {
                            : fmt::format(" before {:.6g} s", clock().time(run_.checkpoints().front().step)));
 }
 
-Supply StoredShots::supply() const {
-    const bool any = run_.brings_all_back();
-    const FrameSupply kept = run_.supply();
-    return {any, any || kept.contacts, kept.measures, kept.orientations};
-}
-
 Span StoredShots::span() const {
     const double to = clock().step > 0 ? clock().time(film_.last_step()) : run_.to();
     return {run_.from(), std::max(run_.to(), to)};
@@ -172,14 +166,6 @@ std::optional<Taken> StoredShots::next(const GoOn& go_on) {
     const bool again = next_ < shots_.size() && shots_[next_].step == shot.step;
     if (!again) kept_.done_with(shot.step);
     return Taken{std::make_shared<const Frame>(std::move(frame)), shot.segment, periods};
-}
-
-Frame StoredShots::frame(std::size_t index) const {
-    Frame frame = run_.grains(index);
-    parts_.add(frame, FilmSegment(), run_.periods(),
-               beside(frame.time, wants_touches() ? run_.touches(index) : std::nullopt),
-               [&](std::int64_t step) { return earlier(step); });
-    return frame;
 }
 
 // A moment of the trajectory, for displacements; null where there is none at that step.

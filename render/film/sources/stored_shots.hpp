@@ -58,7 +58,7 @@ class StoredShots final : public FrameSource {
     void watch_replay(ReplayWatcher watcher) { watcher_ = std::move(watcher); }
 
     const FilmedScene& scene() const override { return scene_; }  // named after the folder
-    Supply supply() const override;
+    bool has_any_moment() const override { return run_.brings_all_back(); }
     Span span() const override;
     const FrameArchive* archive() const override { return &run_; }
     std::vector<Frame> moments(const Pictures& pictures) const override;
@@ -70,8 +70,6 @@ class StoredShots final : public FrameSource {
 
     // Only the grains and the container at a step that it has. Null when told to stop.
     FramePtr grains(std::int64_t step, const GoOn& go_on);
-    // A kept frame with all that the scene's film shows. Throws as the archive does.
-    Frame frame(std::size_t index) const;
 
   private:
     std::vector<Shot> shots_of(const Pictures& pictures) const;
