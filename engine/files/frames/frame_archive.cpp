@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <numeric>
 
 #include "engine/base/error.hpp"
 
@@ -65,6 +66,23 @@ Frame moment_of(const Frame& frame) {
     moment.phase = frame.phase;
     moment.bodies = frame.bodies;
     return moment;
+}
+
+Frame sorted_by_id(const Frame& frame) {
+    std::vector<std::size_t> order(frame.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return frame.id[a] < frame.id[b]; });
+    Frame sorted = moment_of(frame);
+    for (const std::size_t i : order) {
+        sorted.id.push_back(frame.id[i]);
+        sorted.species.push_back(frame.species[i]);
+        sorted.radius.push_back(frame.radius[i]);
+        sorted.position.push_back(frame.position[i]);
+        sorted.velocity.push_back(frame.velocity[i]);
+        sorted.spin.push_back(frame.spin[i]);
+        if (!frame.orientation.empty()) sorted.orientation.push_back(frame.orientation[i]);
+    }
+    return sorted;
 }
 
 }  // namespace grainreel

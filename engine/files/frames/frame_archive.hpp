@@ -107,6 +107,9 @@ class FrameArchive {
 // A frame without its grains.
 Frame moment_of(const Frame& frame);
 
+// The grains by rising id, as all frames have them.
+Frame sorted_by_id(const Frame& frame);
+
 // What a user says about files of other programs, where these do not say it themselves.
 struct ReadingOptions {
     // --columns "radius=c_rad,type=mol": the file's column for a meaning. Meanings are id, type, x, y, z, vx,

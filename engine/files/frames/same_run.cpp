@@ -52,31 +52,32 @@ void check_times(const Scene& scene, double step_length, double step, double tim
                                               : "no drive"));
 }
 
-void check_pose(const Drive& drive, const BodyPose& is, const Pose& by_scene, const std::string& what) {
+void check_pose(const Drive& drive, const BodyPose& pose, const Pose& by_scene, const std::string& what) {
     const auto near = [](const Vec3& a, const Vec3& b, double scale) {
         return (a - b).norm() <= same_place * std::max(scale, a.norm());
     };
     const DrivePeaks peaks = drive_peaks(drive);
-    if (near(is.place, by_scene.offset, peaks.offset) && near(is.velocity, by_scene.velocity, peaks.speed))
+    if (near(pose.place, by_scene.offset, peaks.offset) &&
+        near(pose.velocity, by_scene.velocity, peaks.speed))
         return;
     const auto along = [&](const Vec3& vector) { return vector.dot(drive.direction); };
     of_two_runs(fmt::format(
         "{} {:.4g} m from rest along the drive, at {:.4g} m/s, but the drive of scene.toml "
         "beside it has it at {:.4g} m and {:.4g} m/s then",
-        what, along(is.place), along(is.velocity), along(by_scene.offset), along(by_scene.velocity)));
+        what, along(pose.place), along(pose.velocity), along(by_scene.offset), along(by_scene.velocity)));
 }
 
 // Checks the pose of a body that has a motion of its own.
-void check_own_pose(const BodyPose& is, const BodyPose& by_scene, const std::string& what) {
+void check_own_pose(const BodyPose& pose, const BodyPose& by_scene, const std::string& what) {
     const auto near = [](const Vec3& a, const Vec3& b) {
         return (a - b).norm() <= same_place * std::max({1.0, a.norm(), b.norm()});
     };
-    const double apart = angle_between(is.rotation, by_scene.rotation);
-    if (near(is.place, by_scene.place) && near(is.velocity, by_scene.velocity) &&
-        near(is.spin, by_scene.spin) && apart <= same_angle)
+    const double apart = angle_between(pose.rotation, by_scene.rotation);
+    if (near(pose.place, by_scene.place) && near(pose.velocity, by_scene.velocity) &&
+        near(pose.spin, by_scene.spin) && apart <= same_angle)
         return;
     of_two_runs(fmt::format("{} {:.4g} degrees and {:.4g} m off where scene.toml beside it has it then", what,
-                            apart * 180 / std::numbers::pi, (is.place - by_scene.place).norm()));
+                            apart * 180 / std::numbers::pi, (pose.place - by_scene.place).norm()));
 }
 
 // Checks the pose of the container, if it turns, and of the meshes.
@@ -99,24 +100,24 @@ void check_species(const Scene& scene, const World& world, const std::string& tr
                                 world.species.size(), scene.species.size()));
 }
 
-void check_meshes(const Scene& scene, const World& said, const std::string& trajectory) {
+void check_meshes(const Scene& scene, const World& in_file, const std::string& trajectory) {
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const SceneMesh& mesh = scene.meshes[m];
-        const TriangleMesh& here = mesh.surface->mesh();
+        const TriangleMesh& by_scene = mesh.surface->mesh();
         const std::size_t body = static_cast<std::size_t>(first_mesh_body(scene)) + m;
-        if (body >= said.bodies.size())
+        if (body >= in_file.bodies.size())
             of_two_runs(
                 fmt::format("{}: has no mesh '{}', but scene.toml beside it has", trajectory, mesh.name));
-        const TriangleMesh& there = said.bodies[body].mesh;
+        const TriangleMesh& shape = in_file.bodies[body].mesh;
         const double room = same_shape * mesh.surface->farthest_from(Vec3(0, 0, 0));
-        const bool alike = there.triangles == here.triangles &&
-                           std::equal(there.vertices.begin(), there.vertices.end(), here.vertices.begin(),
-                                      here.vertices.end(),
+        const bool alike = shape.triangles == by_scene.triangles &&
+                           std::equal(shape.vertices.begin(), shape.vertices.end(), by_scene.vertices.begin(),
+                                      by_scene.vertices.end(),
                                       [&](const Vec3& a, const Vec3& b) { return (a - b).norm() <= room; });
         if (!alike)
             of_two_runs(fmt::format(
                 "{}: its mesh '{}' ({} triangles) has another shape than that of scene.toml beside it ({})",
-                trajectory, said.bodies[body].name, there.triangles.size(), here.triangles.size()));
+                trajectory, in_file.bodies[body].name, shape.triangles.size(), by_scene.triangles.size()));
     }
 }
 
@@ -169,11 +170,11 @@ struct Pair {
 std::vector<Pair> moments_of_both(const std::vector<double>& steps, const std::vector<Frame>& moments) {
     std::vector<Pair> pairs;
     for (std::size_t row = steps.size(); row-- > 0;) {
-        const auto found = std::lower_bound(
+        const auto moment = std::lower_bound(
             moments.begin(), moments.end(), steps[row],
-            [](const Frame& moment, double step) { return static_cast<double>(moment.step) < step; });
-        if (found != moments.end() && static_cast<double>(found->step) == steps[row])
-            pairs.push_back({row, static_cast<std::size_t>(found - moments.begin())});
+            [](const Frame& one, double step) { return static_cast<double>(one.step) < step; });
+        if (moment != moments.end() && static_cast<double>(moment->step) == steps[row])
+            pairs.push_back({row, static_cast<std::size_t>(moment - moments.begin())});
     }
     return pairs;
 }
@@ -190,12 +191,12 @@ void check_heights(const Scene& scene, const MeasureTable& table, std::size_t ro
     for (std::size_t s = 0; s < scene.species.size(); ++s) {
         const auto column = table.find(scene.species[s].name + "_centre_z_m");
         if (!column) continue;
-        const double said = table.values(*column, row, row + 1).front(), is = mean_height(frame, s);
-        if (std::abs(said - is) > same_place * (scene.species[s].diameter.largest + std::abs(is)))
+        const double kept = table.values(*column, row, row + 1).front(), now = mean_height(frame, s);
+        if (std::abs(kept - now) > same_place * (scene.species[s].diameter.largest + std::abs(now)))
             of_two_runs(
                 fmt::format("{}: has the centre of '{}' at a height of {:.6g} m at {:.6g} s, but in "
                             "trajectory.nc beside it it is at {:.6g} m",
-                            measures, scene.species[s].name, said, frame.time, is));
+                            measures, scene.species[s].name, kept, frame.time, now));
     }
 }
 
@@ -220,9 +221,9 @@ void check_rows(double step_length, const std::vector<double>& steps, const std:
 void check_measured(const Scene& scene, const MeasureTable& table, const Frame& frame,
                     const std::string& measures) {
     const std::vector<double> steps = table.all("step");
-    const auto found = std::lower_bound(steps.begin(), steps.end(), static_cast<double>(frame.step));
-    if (found == steps.end() || *found != static_cast<double>(frame.step)) return;
-    const auto row = static_cast<std::size_t>(found - steps.begin());
+    const auto row_of_step = std::lower_bound(steps.begin(), steps.end(), static_cast<double>(frame.step));
+    if (row_of_step == steps.end() || *row_of_step != static_cast<double>(frame.step)) return;
+    const auto row = static_cast<std::size_t>(row_of_step - steps.begin());
     check_heights(scene, table, row, frame, fmt::format("{}:{}", measures, row + 2));
 }
 

@@ -14,8 +14,8 @@ namespace grainreel {
 
 // Compares names and densities of species. trajectory, and measures below: names of the files, for messages.
 void check_species(const Scene& scene, const World& world, const std::string& trajectory);
-// Compares the shapes of meshes. said: the world according to the trajectory.
-void check_meshes(const Scene& scene, const World& said, const std::string& trajectory);
+// Compares the shapes of meshes. in_file: the world according to the trajectory.
+void check_meshes(const Scene& scene, const World& in_file, const std::string& trajectory);
 // Compares the number of grains, and in one frame the number and sizes of the grains of each species.
 void check_grains(const Scene& scene, const World& world, const Frame& frame, const std::string& trajectory);
 // Compares step, periods and phase of a moment, and the places of container and meshes at that time. frame:

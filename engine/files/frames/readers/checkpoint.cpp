@@ -1,8 +1,6 @@
 // Reads a checkpoint as one frame: its grains and its scene. The state of the step loop is not read, so no
 // laws are needed. Forces and measures of that moment can be had only by restoring the run.
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -46,22 +44,19 @@ CheckpointFile whole_file(const fs::path& path) {
 
 // The grains by rising id, as in all frames, with x within the period along the depth (0: not periodic).
 Frame frame_of(const Grains& grains, double period) {
-    std::vector<std::size_t> order(grains.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return grains.id[a] < grains.id[b]; });
     Frame frame;
-    for (const std::size_t i : order) {
-        frame.id.push_back(grains.id[i]);
-        frame.species.push_back(grains.species[i]);
+    frame.id = grains.id;
+    frame.species = grains.species;
+    frame.orientation = grains.orientation;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
         frame.radius.push_back(grains.place[i].radius);
         Vec3 position = grains.place[i].position;
         position.x() = wrapped(position.x(), period);
         frame.position.push_back(position);
         frame.velocity.push_back(grains.motion[i].velocity);
         frame.spin.push_back(grains.motion[i].spin);
-        if (!grains.orientation.empty()) frame.orientation.push_back(grains.orientation[i]);
     }
-    return frame;
+    return sorted_by_id(frame);
 }
 
 class Checkpoint final : public FrameArchive {

@@ -1,7 +1,6 @@
 // Reads a table of grains (final.csv) as one frame. It has neither time nor walls. Names, densities and walls
 // are those of the scene.toml beside it, if there is one.
 #include <algorithm>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -20,24 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int32_t most_types = 1000;
-
-// The rows by rising id, as in all frames: Frame::row_of() finds a grain by its id.
-Frame by_id(const Frame& table) {
-    std::vector<std::size_t> order(table.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return table.id[a] < table.id[b]; });
-    Frame frame;
-    for (const std::size_t i : order) {
-        frame.id.push_back(table.id[i]);
-        frame.species.push_back(table.species[i]);
-        frame.radius.push_back(table.radius[i]);
-        frame.position.push_back(table.position[i]);
-        frame.velocity.push_back(table.velocity[i]);
-        frame.spin.push_back(table.spin[i]);
-        if (!table.orientation.empty()) frame.orientation.push_back(table.orientation[i]);
-    }
-    return frame;
-}
 
 // The species of a table without a scene: named by their numbers, with the mean diameter of their grains.
 std::vector<WorldSpecies> types_of(const Frame& frame, std::int32_t last) {
@@ -58,7 +39,7 @@ std::vector<WorldSpecies> types_of(const Frame& frame, std::int32_t last) {
 class GrainTable final : public FrameArchive {
   public:
     GrainTable(const fs::path& file, const FrameRequest& request)
-        : file_(file), frame_(by_id(read_grain_table(file))) {
+        : file_(file), frame_(sorted_by_id(read_grain_table(file))) {
         frame_.time = frame_.cycles = kUnknown;
         news_.push_back(fmt::format(
             "{}: holds neither time nor walls; heights are counted from the floor at rest", file_.string()));
