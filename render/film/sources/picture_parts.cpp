@@ -2,14 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/base/error.hpp"
-#include "engine/files/frames/open_frames.hpp"
-#include "engine/files/frames/same_run.hpp"
-#include "engine/files/measures_csv.hpp"
-#include "engine/files/run_names.hpp"
 #include "engine/questions/snapshot.hpp"
-#include "engine/run/driver/run_files.hpp"
-#include "engine/state/body.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/bed_periods.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -80,60 +73,6 @@ void PictureParts::add_mean(Frame& frame, const FilmSegment& rule, int periods,
         if (!moments.back()) return;
     }
     set_mean(frame, moments, static_cast<double>(frame.step - steps.front()) * clock_.step, depth_);
-}
-
-EarlierPictures::EarlierPictures(const FilmedScene& scene, const Clock& clock,
-                                 const std::filesystem::path& run, const std::vector<Shot>& shots,
-                                 std::size_t count, std::shared_ptr<const MeasureTable> measures,
-                                 const RunFiles& files, std::shared_ptr<const WearReader> wear)
-    : scene_(scene),
-      files_(files),
-      moments_(open_frames(run / kFilmMoments, {.format = "trajectory"})),
-      shots_(shots),
-      count_(count),
-      measures_(std::move(measures)),
-      wear_(std::move(wear)),
-      parts_(scene, clock, 0) {
-    const std::shared_ptr<const MeasureTable> rows = read_measures(run / "measures.csv");
-    GRAINREEL_CHECK(rows != nullptr);
-    steps_ = rows->all("step");
-    periods_ = MeasuredPeriods(*rows);
-}
-
-std::optional<Taken> EarlierPictures::next() {
-    if (next_ == count_) return std::nullopt;
-    // If a moment is damaged, the list lacks it, and without this check another moment would take its place.
-    if (next_ >= moments_->moments().size() || moments_->place(next_) != next_)
-        throw UserError(moments_->damage().empty()
-                            ? moments_->path().string() + ": lacks a picture that it has had"
-                            : moments_->damage().front());
-    Frame frame = moments_->grains(next_++);
-    add_planes(scene_.walls, frame.time, frame.bodies);
-    const auto shot = std::lower_bound(shots_.begin(), shots_.end(), frame.step,
-                                       [](const Shot& one, std::int64_t step) { return one.step < step; });
-    GRAINREEL_CHECK(shot != shots_.end() && shot->step == frame.step);
-    const int periods = periods_at(frame.step);
-    parts_.add(frame, scene_.film.segments.at(static_cast<std::size_t>(shot->segment)), periods,
-               beside(frame), [](std::int64_t) { return FramePtr(); });
-    return Taken{std::make_shared<const Frame>(std::move(frame)), shot->segment, periods};
-}
-
-Beside EarlierPictures::beside(const Frame& frame) const {
-    Beside all;
-    if (needs_measures(scene_.film.shows)) {
-        const auto after = std::upper_bound(steps_.begin(), steps_.end(), static_cast<double>(frame.step));
-        all.measures = measures_;
-        all.measure_rows = static_cast<std::size_t>(after - steps_.begin());
-    }
-    if (wear_) all.worn = wear_->until(frame.time);
-    if (scene_.film.shows.outflow) all.flowed_out = files_.flowed_out(frame.time);
-    return all;
-}
-
-// The periods that the run had found by that step, or the number that the scene sets.
-int EarlierPictures::periods_at(std::int64_t step) const {
-    if (scene_.film.periods > 0) return scene_.film.periods;
-    return periods_.at(step);
 }
 
 }  // namespace grainreel

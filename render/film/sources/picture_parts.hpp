@@ -5,23 +5,17 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/files/frames/frame_archive.hpp"
-#include "engine/files/wear_file.hpp"
 #include "engine/frame.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/run/driver/agenda.hpp"
-#include "engine/run/driver/run_files.hpp"
-#include "engine/scene/scene.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/bed_periods.hpp"
-#include "render/film/sources/frame_source.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -65,37 +59,6 @@ class PictureParts {
     Clock clock_;
     std::int64_t first_;
     double depth_;  // m, period of a periodic container along x; 0 for none
-};
-
-// Gives the pictures that the film of a resumed run had taken before the run was broken off, from the moments
-// that were kept for them.
-class EarlierPictures {
-  public:
-    // run: the run's folder. shots: those of the film. count: how many of the kept moments are pictures of
-    // the film. measures: rows of the run, with the columns that the film shows; null if it shows none.
-    // files: they tell what has flowed out. wear: for a film whose walls are coloured by wear, else null.
-    EarlierPictures(const FilmedScene& scene, const Clock& clock, const std::filesystem::path& run,
-                    const std::vector<Shot>& shots, std::size_t count,
-                    std::shared_ptr<const MeasureTable> measures, const RunFiles& files,
-                    std::shared_ptr<const WearReader> wear);
-
-    // Gives the next picture; empty after the last one.
-    std::optional<Taken> next();
-
-  private:
-    Beside beside(const Frame& frame) const;
-    int periods_at(std::int64_t step) const;
-
-    const FilmedScene& scene_;
-    const RunFiles& files_;
-    std::unique_ptr<FrameArchive> moments_;
-    std::vector<Shot> shots_;
-    std::size_t count_, next_ = 0;
-    std::shared_ptr<const MeasureTable> measures_;
-    std::shared_ptr<const WearReader> wear_;
-    std::vector<double> steps_;  // of the rows of measures
-    MeasuredPeriods periods_;
-    PictureParts parts_;
 };
 
 }  // namespace grainreel

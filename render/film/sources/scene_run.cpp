@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/error.hpp"
 #include "engine/base/triangle_mesh.hpp"
+#include "engine/files/frames/open_frames.hpp"
+#include "engine/files/measures_csv.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/walls/mesh_wear.hpp"
-#include "engine/mesh/surface.hpp"
 #include "engine/run/stored/stored_run.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 
@@ -42,9 +45,7 @@ void SceneRun::start(const Pictures& pictures) {
     parts_.emplace(scene_, clock, driver_.first_step());
     if (shows_wear(scene_)) read_wear_before();
     driver_.start(wishes());
-    if (driver_.goes_on() && driver_.files()->keeps_film_moments())
-        earlier_.emplace(scene_, clock, driver_.folder(), shots_, driver_.frames_before(),
-                         driver_.files()->measures(), *driver_.files(), wear_before_);
+    if (driver_.goes_on() && driver_.files()->keeps_film_moments()) read_earlier();
     // An upper limit: if the bed turns out to repeat itself only every few periods, some pictures are left
     // out.
     count_ = std::count_if(shots_.begin(), shots_.end(), [&](const Shot& shot) {
@@ -81,20 +82,21 @@ KeptMoments SceneRun::wanted_moments() const {
 
 std::optional<Taken> SceneRun::next(const GoOn& go_on) {
     if (std::optional<Taken> picture = waiting()) return picture;
-    if (earlier_ && !go_on()) return std::nullopt;
-    if (earlier_)
-        if (std::optional<Taken> picture = earlier_->next()) return picture;
-    earlier_.reset();
+    if (earlier_) {
+        if (!go_on()) return std::nullopt;
+        if (earlier_->next < driver_.frames_before()) return next_earlier();
+        earlier_.reset();
+    }
     const std::shared_ptr<Frame> frame = driver_.next(go_on);
     if (!frame) return std::nullopt;
     waiting_ = due_at(frame->step);
-    parts_->add(*frame, rule(waiting_.back().segment), bed_periods_->shown(), beside(*frame),
+    parts_->add(*frame, rule(waiting_.back().segment), bed_periods_->shown(), beside_now(frame->time),
                 [this](std::int64_t step) { return driver_.kept(step); });
     frame_ = frame;
     return waiting();
 }
 
-Beside SceneRun::beside(const Frame& frame) const {
+Beside SceneRun::beside_now(double time) const {
     const FilmShows& shows = scene_.film.shows;
     Beside all;
     if (needs_touches(shows)) all.touches = touches_of(driver_.simulation());
@@ -103,8 +105,45 @@ Beside SceneRun::beside(const Frame& frame) const {
         all.measure_rows = all.measures->rows();
     }
     if (shows_wear(scene_)) all.worn = worn_;
-    if (shows.outflow) all.flowed_out = driver_.files()->flowed_out(frame.time);
+    if (shows.outflow) all.flowed_out = driver_.files()->flowed_out(time);
     return all;
+}
+
+void SceneRun::read_earlier() {
+    const std::shared_ptr<const MeasureTable> rows = read_measures(driver_.folder() / "measures.csv");
+    GRAINREEL_CHECK(rows != nullptr);
+    earlier_.emplace();
+    earlier_->moments = open_frames(driver_.folder() / kFilmMoments, {.format = "trajectory"});
+    earlier_->steps = rows->all("step");
+    earlier_->periods = MeasuredPeriods(*rows);
+}
+
+// Gives the next picture that the film of a resumed run had before the run was broken off, from the moment
+// that was kept for it.
+Taken SceneRun::next_earlier() {
+    const FrameArchive& moments = *earlier_->moments;
+    const std::size_t index = earlier_->next++;
+    // If a moment is damaged, the list lacks it, and without this check another moment would take its place.
+    if (index >= moments.moments().size() || moments.place(index) != index)
+        throw UserError(moments.damage().empty()
+                            ? moments.path().string() + ": lacks a picture that it has had"
+                            : moments.damage().front());
+    Frame frame = moments.grains(index);
+    add_planes(scene_.walls, frame.time, frame.bodies);
+    const auto shot = std::lower_bound(shots_.begin(), shots_.end(), frame.step,
+                                       [](const Shot& one, std::int64_t step) { return one.step < step; });
+    GRAINREEL_CHECK(shot != shots_.end() && shot->step == frame.step);
+    const int periods = scene_.film.periods > 0 ? scene_.film.periods : earlier_->periods.at(frame.step);
+    Beside beside = beside_now(frame.time);
+    if (beside.measures)
+        beside.measure_rows =
+            static_cast<std::size_t>(std::upper_bound(earlier_->steps.begin(), earlier_->steps.end(),
+                                                      static_cast<double>(frame.step)) -
+                                     earlier_->steps.begin());
+    if (wear_before_) beside.worn = wear_before_->until(frame.time);
+    parts_->add(frame, rule(shot->segment), periods, std::move(beside),
+                [](std::int64_t) { return FramePtr(); });
+    return {std::make_shared<const Frame>(std::move(frame)), shot->segment, periods};
 }
 
 std::optional<Taken> SceneRun::waiting() {

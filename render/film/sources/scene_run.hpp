@@ -51,7 +51,10 @@ class SceneRun final : public FrameSource {
     std::optional<Taken> waiting();  // the next picture of the frame that was taken last
     // The shots of that step that the film shows, by what is known so far of the bed's periods.
     std::vector<Shot> due_at(std::int64_t step) const;
-    Beside beside(const Frame& frame) const;
+    // What lies beside the frame that the driver has now.
+    Beside beside_now(double time) const;
+    void read_earlier();
+    Taken next_earlier();
     void look_at_bed_periods(const Simulation& simulation);
     void look_at_wear(const Simulation& simulation);
     void read_wear_before();
@@ -68,7 +71,14 @@ class SceneRun final : public FrameSource {
     std::shared_ptr<const WearReader> wear_before_;  // reads the wear of a resumed run up to its break
     // Pressure and wear of each mesh, as in the last record of fields.nc that has ended.
     std::shared_ptr<const std::vector<MeshWear>> worn_;
-    std::optional<EarlierPictures> earlier_;
+    // The pictures that the film of a resumed run had before the run was broken off.
+    struct Earlier {
+        std::unique_ptr<FrameArchive> moments;
+        std::size_t next = 0;       // index of the next picture's moment
+        std::vector<double> steps;  // of the rows of measures.csv
+        MeasuredPeriods periods;
+    };
+    std::optional<Earlier> earlier_;
     FramePtr frame_;             // the frame that was taken last
     std::vector<Shot> waiting_;  // its pictures that are still to come
 };
