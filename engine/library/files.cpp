@@ -10,8 +10,8 @@
 
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
-#include "engine/state/container_faces.hpp"
 #include "engine/run/stored/stored_run.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel::v1 {
 namespace {

@@ -12,9 +12,9 @@
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/world.hpp"
-#include "engine/state/container_faces.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/state/body.hpp"
+#include "engine/state/container_faces.hpp"
 
 namespace grainreel {
 
