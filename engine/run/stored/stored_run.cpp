@@ -21,12 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The clock of the frames, with the scene's own step where the scene gives one. The frames tell the step only
-// up to rounding, and a moment at step 0 does not tell it at all.
+// The clock of the frames. Moments at step 0 alone do not tell it; then the scene's own step is taken.
 Clock clock_of_frames(const Scene& scene, const FrameArchive& frames) {
-    Clock clock = clock_of(scene, frames.moments());
-    if (scene.run.step) clock.step = *scene.run.step;
-    return clock;
+    const Clock clock = clock_of(scene, frames.moments());
+    return clock.step == 0 && scene.run.step ? clock_of_steps(scene, *scene.run.step) : clock;
 }
 
 // Whether the folder of a run is there, and no reader of the calling program takes it.
@@ -94,8 +92,7 @@ void StoredRun::read_folder(const fs::path& folder, const StoredRunRequest& requ
     kind_ = fs::exists(folder / kImportNews, ignored) ? Kind::imported
             : is_of_another_engine(folder)            ? Kind::elsewhere
                                                       : Kind::ours;
-    clock_ = clock_of(scene_, moments());
-    if (clock_.step == 0 && scene_.run.step) clock_.step = *scene_.run.step;  // for a single moment at step 0
+    clock_ = clock_of_frames(scene_, *frames_);
     faults_ = frames_->news();
     if (!damage.empty()) {
         faults_.resize(faults_.size() - damage.size());
