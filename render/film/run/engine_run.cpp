@@ -79,7 +79,7 @@ CarriedScene as_handed_over(const fs::path& run, const FilmedScene& scene, const
 std::vector<std::int64_t> needed_steps(const FilmedScene& scene, const Clock& clock, std::int64_t steps) {
     std::vector<std::int64_t> needed;
     const std::vector<FilmSegment> segments = segments_of(scene.film);
-    for (const Shot& shot : film_schedule(scene, clock, steps)) {
+    for (const Due& shot : film_schedule(scene, clock, steps)) {
         needed.push_back(shot.step);
         const FilmSegment& segment = segments[static_cast<std::size_t>(shot.segment)];
         for (const auto& more : {exposed_steps(shot, segment, clock), averaged_steps(shot, segment, clock)})
@@ -274,8 +274,8 @@ bool EngineRun::draw() {
     if (!film_.wanted()) return true;
     constexpr bool replay = false;
     RevisitedRun source(folder(), {}, replay);
-    std::vector<Shot> shots;
-    for (const Shot& shot : source.film().shots()) {
+    std::vector<Due> shots;
+    for (const Due& shot : source.film().shots()) {
         const std::int64_t step = source.shown(shot.step);
         if (shots.empty() || step > shots.back().step) shots.push_back({step, shot.segment});
     }

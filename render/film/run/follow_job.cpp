@@ -178,8 +178,8 @@ bool FollowJob::draw(const Taken& picture) {
 
 bool FollowJob::draw_new() {
     if (back_->frames() > opened_at_) open_anew();
-    std::vector<Shot> shots;
-    for (const Shot& shot : source_->film().shots()) {
+    std::vector<Due> shots;
+    for (const Due& shot : source_->film().shots()) {
         const std::int64_t step = source_->shown(shot.step);
         if (step > (shots.empty() ? shown_ : shots.back().step)) shots.push_back({step, shot.segment});
     }

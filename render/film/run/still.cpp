@@ -97,7 +97,7 @@ std::vector<std::int64_t> before(std::int64_t step, double duration, const Revis
     constexpr double room = 1.001;
     std::vector<std::int64_t> steps;
     const double from = source.film().moment(step).time - room * duration;
-    for (const Shot& shot : source.film().shots())
+    for (const Due& shot : source.film().shots())
         if (shot.step < step && source.film().moment(shot.step).time >= from && source.has(shot.step))
             steps.push_back(shot.step);
     return steps;
@@ -107,7 +107,7 @@ std::vector<std::int64_t> before(std::int64_t step, double duration, const Revis
 // Returns false when told to stop.
 bool remember_what_was(Renderer& renderer, std::int64_t step, RevisitedRun& source,
                        const FrameSource::GoOn& go_on) {
-    const std::vector<Shot> film = source.film().shots();
+    const std::vector<Due> film = source.film().shots();
     const FramePtr start = film.empty()
                                ? std::make_shared<const Frame>(source.record().frames().first_whole())
                                : source.grains(source.shown(film.front().step), go_on);

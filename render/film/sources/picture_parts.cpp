@@ -86,7 +86,7 @@ void PictureParts::add_mean(Frame& frame, const FilmSegment& rule, int periods,
 }
 
 EarlierPictures::EarlierPictures(const FilmedScene& scene, const Clock& clock,
-                                 const std::filesystem::path& run, const std::vector<Shot>& shots,
+                                 const std::filesystem::path& run, const std::vector<Due>& shots,
                                  std::size_t count, std::shared_ptr<const MeasureTable> measures,
                                  const RunFiles& files, std::shared_ptr<const WearReader> wear)
     : scene_(scene),
@@ -117,7 +117,7 @@ std::optional<Taken> EarlierPictures::next() {
     Frame frame = moments_->grains(next_++);
     add_planes(scene_.walls, frame.time, frame.bodies);
     const auto shot = std::lower_bound(shots_.begin(), shots_.end(), frame.step,
-                                       [](const Shot& one, std::int64_t step) { return one.step < step; });
+                                       [](const Due& one, std::int64_t step) { return one.step < step; });
     GRAINREEL_CHECK(shot != shots_.end() && shot->step == frame.step);
     const int periods = periods_at(frame.step);
     parts_.add(frame, scene_.film.segments.at(static_cast<std::size_t>(shot->segment)), periods, *this);

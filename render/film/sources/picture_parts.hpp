@@ -81,7 +81,7 @@ class EarlierPictures final : private PartSupply {
     // the film. measures: rows of the run, with the columns that the film shows; null if it shows none.
     // files: they tell what has flowed out. wear: for a film whose walls are coloured by wear, else null.
     EarlierPictures(const FilmedScene& scene, const Clock& clock, const std::filesystem::path& run,
-                    const std::vector<Shot>& shots, std::size_t count,
+                    const std::vector<Due>& shots, std::size_t count,
                     std::shared_ptr<const MeasureTable> measures, const RunFiles& files,
                     std::shared_ptr<const WearReader> wear);
 
@@ -104,7 +104,7 @@ class EarlierPictures final : private PartSupply {
     const FilmedScene& scene_;
     const RunFiles& files_;
     std::unique_ptr<FrameArchive> moments_;
-    std::vector<Shot> shots_;
+    std::vector<Due> shots_;
     std::size_t count_, next_ = 0;
     std::shared_ptr<const MeasureTable> measures_;
     std::shared_ptr<const WearReader> wear_;

@@ -72,29 +72,29 @@ Frame FilmOfRun::moment(std::int64_t step) const {
     return moment;
 }
 
-std::vector<Shot> FilmOfRun::shots() const {
+std::vector<Due> FilmOfRun::shots() const {
     const FilmedScene& scene = run_.scene();
     const Clock& clock = run_.clock();
     if (clock.step <= 0) return {{last_, 0}};  // the run has a single moment
     const std::int64_t steps = std::llround(scene.run.duration / clock.step);
     const std::vector<FilmSegment> segments = segments_of(scene.film);
-    std::vector<Shot> shots = with_bed(shots_at(instants_of(scene, clock, steps), segments, clock, steps));
+    std::vector<Due> shots = with_bed(shots_at(instants_of(scene, clock, steps), segments, clock, steps));
     const std::int64_t first = run_.moments().front().step;
-    std::erase_if(shots, [&](const Shot& shot) { return shot.step < first || shot.step > last_; });
+    std::erase_if(shots, [&](const Due& shot) { return shot.step < first || shot.step > last_; });
     return shots;
 }
 
 // The shots that the film shows, following the periods of the bed. Where the run's own film ended before the
 // run did, later shots follow the periods that the bed had then.
-std::vector<Shot> FilmOfRun::with_bed(const std::vector<Shot>& shots) const {
+std::vector<Due> FilmOfRun::with_bed(const std::vector<Due>& shots) const {
     FilmedScene scene = run_.scene();
     if (!same_) scene.film.periods = run_.frames().periods();
     const bool may_leave_out = true;
     BedPeriods bed(scene, run_.clock(), shots, may_leave_out);
     const std::vector<FilmSegment> segments = segments_of(scene.film);
-    std::vector<Shot> kept;
+    std::vector<Due> kept;
     std::size_t row = 0;
-    for (const Shot& shot : shots) {
+    for (const Due& shot : shots) {
         for (; row < steps_.size() && steps_[row] <= static_cast<double>(shot.step); ++row)
             bed.note(static_cast<std::int64_t>(steps_[row]), static_cast<int>(periods_[row]),
                      differences_[row]);
@@ -107,12 +107,12 @@ std::vector<Shot> FilmOfRun::with_bed(const std::vector<Shot>& shots) const {
 }
 
 FilmOfRun::Place FilmOfRun::place_of(std::int64_t step) const {
-    const std::vector<Shot> all = shots();
+    const std::vector<Due> all = shots();
     const auto after =
         std::upper_bound(all.begin(), all.end(), step,
-                         [](std::int64_t wanted, const Shot& shot) { return wanted < shot.step; });
+                         [](std::int64_t wanted, const Due& shot) { return wanted < shot.step; });
     if (after == all.begin()) return {};
-    const Shot& before = *std::prev(after);
+    const Due& before = *std::prev(after);
     double pictures = static_cast<double>(after - all.begin()) - 1;
     if (after != all.end() && before.step < step)
         pictures += static_cast<double>(step - before.step) / static_cast<double>(after->step - before.step);
@@ -158,8 +158,8 @@ bool RevisitedRun::has(std::int64_t step) const {
 }
 
 bool RevisitedRun::has_all(const Pictures& pictures) const {
-    const std::vector<Shot> shots = shots_of(pictures);
-    return std::all_of(shots.begin(), shots.end(), [&](const Shot& shot) { return has(shot.step); });
+    const std::vector<Due> shots = shots_of(pictures);
+    return std::all_of(shots.begin(), shots.end(), [&](const Due& shot) { return has(shot.step); });
 }
 
 std::int64_t RevisitedRun::shown(std::int64_t step) const {
@@ -198,16 +198,16 @@ std::vector<std::string> RevisitedRun::news() const {
     return news;
 }
 
-std::vector<Shot> RevisitedRun::shots_of(const Pictures& pictures) const {
+std::vector<Due> RevisitedRun::shots_of(const Pictures& pictures) const {
     if (clock().step > 0) return shots_at(pictures.instants, pictures.segments, clock(), film_.last_step());
-    std::vector<Shot> shots;  // shots of a run with one moment
+    std::vector<Due> shots;  // shots of a run with one moment
     for (const Instant& instant : pictures.instants) shots.push_back({film_.last_step(), instant.segment});
     return shots;
 }
 
 std::vector<Frame> RevisitedRun::moments(const Pictures& pictures) const {
     std::vector<Frame> moments;
-    for (const Shot& shot : shots_of(pictures)) moments.push_back(film_.moment(shown(shot.step)));
+    for (const Due& shot : shots_of(pictures)) moments.push_back(film_.moment(shown(shot.step)));
     return moments;
 }
 
@@ -215,12 +215,12 @@ void RevisitedRun::start(const Pictures& pictures) {
     start(shots_of(pictures), pictures.segments);
 }
 
-void RevisitedRun::start(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments) {
+void RevisitedRun::start(const std::vector<Due>& shots, const std::vector<FilmSegment>& segments) {
     shots_ = shots;
     segments_ = segments;
     next_ = 0;
     kept_ = {};
-    for (Shot& shot : shots_) {
+    for (Due& shot : shots_) {
         shot.step = shown(shot.step);
         const FilmSegment& rule = segments_.at(static_cast<std::size_t>(shot.segment));
         kept_.want(shot.step, run_.parts().moments(shot.step, rule, film_.periods_at(shot.step)));
@@ -263,7 +263,7 @@ bool RevisitedRun::keep_moments_until(std::int64_t step, const GoOn& go_on) {
 
 std::optional<Taken> RevisitedRun::next(const GoOn& go_on) {
     if (!go_on() || next_ == shots_.size()) return std::nullopt;
-    const Shot shot = shots_[next_++];
+    const Due shot = shots_[next_++];
     if (!keep_moments_until(shot.step, go_on)) return std::nullopt;
     std::optional<ReachableMoments::Found> found = take(shot.step, wants_touches(), go_on);
     if (!found) return std::nullopt;

@@ -29,7 +29,7 @@ class FilmOfRun {
 
     // The shots by rising step, as far as the run has come. Throws UserError when the film would have too
     // many.
-    std::vector<Shot> shots() const;
+    std::vector<Due> shots() const;
     // Periods of the drive after which the bed repeats itself, as the film takes it at that step.
     int periods_at(std::int64_t step) const;
     // The last step of the run; there may be no frame of it.
@@ -48,7 +48,7 @@ class FilmOfRun {
     void read_film_times();
     void read_periods();
     // Those of the shots at which the bed looks alike (BedPeriods).
-    std::vector<Shot> with_bed(const std::vector<Shot>& shots) const;
+    std::vector<Due> with_bed(const std::vector<Due>& shots) const;
 
     const RecordedRun& run_;
     bool same_ = true;  // the run has a film of its own, with the same schedule
@@ -101,7 +101,7 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     std::vector<Frame> moments(const Pictures& pictures) const override;
     void start(const Pictures& pictures) override;
     // Starts with shots by their steps. Each step is shown itself, or by the nearest kept one.
-    void start(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments);
+    void start(const std::vector<Due>& shots, const std::vector<FilmSegment>& segments);
     std::optional<Taken> next(const GoOn& go_on) override;
     std::vector<std::string> news() const override;
 
@@ -115,7 +115,7 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     std::optional<FlowedOut> flowed_out(const Frame& frame) const override;
     std::shared_ptr<const std::vector<MeshWear>> worn(const Frame& frame) const override;
 
-    std::vector<Shot> shots_of(const Pictures& pictures) const;
+    std::vector<Due> shots_of(const Pictures& pictures) const;
     bool wants_touches() const;
     // Takes the moment of a step; empty when told to stop.
     std::optional<ReachableMoments::Found> take(std::int64_t step, bool touches, const GoOn& go_on);
@@ -126,7 +126,7 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     ReachableMoments reachable_;
     FilmOfRun film_;
     ReplayWatcher watcher_;
-    std::vector<Shot> shots_;
+    std::vector<Due> shots_;
     std::vector<FilmSegment> segments_;
     KeptMoments kept_;
     std::set<std::int64_t> wanted_;  // steps whose moments later pictures need

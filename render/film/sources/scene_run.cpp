@@ -40,7 +40,7 @@ Span SceneRun::span() const {
     return {driver_.plan().clock.time(driver_.first_step()), scene_.run.duration};
 }
 
-std::vector<Shot> SceneRun::shots_of(const Pictures& pictures) const {
+std::vector<Due> SceneRun::shots_of(const Pictures& pictures) const {
     const Plan& plan = driver_.plan();
     return shots_at(pictures.instants, pictures.segments, plan.clock, plan.steps);
 }
@@ -48,7 +48,7 @@ std::vector<Shot> SceneRun::shots_of(const Pictures& pictures) const {
 std::vector<Frame> SceneRun::moments(const Pictures& pictures) const {
     const Clock& clock = driver_.plan().clock;
     std::vector<Frame> moments;
-    for (const Shot& shot : shots_of(pictures)) {
+    for (const Due& shot : shots_of(pictures)) {
         Frame& moment = moments.emplace_back();
         moment.step = shot.step;
         moment.time = clock.time(shot.step);
@@ -71,14 +71,14 @@ void SceneRun::start(const Pictures& pictures) {
                          driver_.files()->measures(), *driver_.files(), wear_before_);
     // An upper limit: if the bed turns out to repeat itself only every few periods, some pictures are left
     // out.
-    count_ = std::count_if(shots_.begin(), shots_.end(), [&](const Shot& shot) {
+    count_ = std::count_if(shots_.begin(), shots_.end(), [&](const Due& shot) {
         return shot.step >= driver_.first_step() && bed_periods_->shows(rule(shot.segment), shot);
     });
 }
 
 FrameWishes SceneRun::wishes() {
     FrameWishes wishes;
-    for (const Shot& shot : shots_) wishes.steps.push_back(shot.step);
+    for (const Due& shot : shots_) wishes.steps.push_back(shot.step);
     wishes.look = [this](const Simulation& simulation) {
         look_at_bed_periods(simulation);
         if (shows_wear(scene_)) look_at_wear(simulation);
@@ -97,7 +97,7 @@ FrameWishes SceneRun::wishes() {
 KeptMoments SceneRun::wanted_moments() const {
     KeptMoments wanted;
     const std::vector<int> multiples = bed_periods_->possible();
-    for (const Shot& shot : shots_)
+    for (const Due& shot : shots_)
         for (const int periods : multiples)
             wanted.want(shot.step, parts_->moments(shot.step, rule(shot.segment), periods));
     return wanted;
@@ -136,7 +136,7 @@ std::vector<std::string> SceneRun::news() const {
 bool SceneRun::leaves_out(std::int64_t step) {
     segments_waiting_.clear();
     auto shot = std::lower_bound(shots_.begin(), shots_.end(), step,
-                                 [](const Shot& one, std::int64_t wanted) { return one.step < wanted; });
+                                 [](const Due& one, std::int64_t wanted) { return one.step < wanted; });
     for (; shot != shots_.end() && shot->step == step; ++shot)
         if (bed_periods_->shows(rule(shot->segment), *shot)) segments_waiting_.push_back(shot->segment);
     return segments_waiting_.empty();

@@ -47,7 +47,7 @@ class SceneRun final : public FrameSource {
   private:
     class Parts;  // what pictures may take from the run
 
-    std::vector<Shot> shots_of(const Pictures& pictures) const;
+    std::vector<Due> shots_of(const Pictures& pictures) const;
     FrameWishes wishes();
     KeptMoments wanted_moments() const;
     std::optional<Taken> waiting();  // the next picture of the frame that was taken last
@@ -63,7 +63,7 @@ class SceneRun final : public FrameSource {
     RunDriver& driver_;
     bool keys_wanted_ = false;
     std::vector<FilmSegment> segments_;  // segments of the film
-    std::vector<Shot> shots_;
+    std::vector<Due> shots_;
     std::int64_t count_ = 0;
     std::optional<BedPeriods> bed_periods_;
     std::optional<PictureParts> parts_;
