@@ -133,6 +133,7 @@ std::int64_t MomentFinder::step_of_frame(const MomentRequest& request) const {
 Snapshot MomentFinder::kept(std::size_t index) const {
     Snapshot snapshot{run_.scene(), run_.frame(index), run_.frames().has_contacts_of(index),
                       run_.frames().first()};
+    run_.add_kept(index, snapshot);
     snapshot.measured = run_.measured_near(index);
     const FrameSupply supply = run_.frames().supply();
     snapshot.spins = supply.spins;
@@ -159,7 +160,7 @@ namespace {
 Snapshot snapshot_of(const Simulation& run, const AskedRun& asked) {
     Snapshot snapshot{asked.scene(), run.frame(), true, asked.frames().first()};
     for (const SavedContact& one : run.contacts())
-        snapshot.frame.touches.push_back({one.first, one.second, one.normal});
+        snapshot.touches.push_back({one.first, one.second, one.normal});
     snapshot.measured = MeasuredRow{snapshot.frame.time, run.measured(), run.measures().values()};
     snapshot.forces.emplace();
     snapshot.forces->contacts = run.contact_forces();
@@ -211,7 +212,8 @@ Snapshot MomentFinder::brought_back_with_ways(const AskedMoment& moment, const R
     const Frame then =
         replayed(run_.frames().path(), run_.checkpoints(), before.step, scene.run.threads, watcher).frame();
     Snapshot snapshot = brought_back(moment, watcher);
-    set_displacement(snapshot.frame, then, periods, period_of_depth(scene.container));
+    snapshot.displacement =
+        displacement_since(then, snapshot.frame, periods, period_of_depth(scene.container));
     return snapshot;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_names.hpp"
+#include "engine/questions/snapshot.hpp"
 #include "engine/run/replay/replay.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/checkpoint_file.hpp"
@@ -55,10 +56,11 @@ const OwnCheckpoints& AskedRun::own() const {
 }
 
 Frame AskedRun::frame(std::size_t index) const {
-    Frame frame = frames_->grains(index);
-    if (std::optional<std::vector<Touch>> touches = frames_->touches(index))
-        frame.touches = std::move(*touches);
-    return frame;
+    return frames_->grains(index);
+}
+
+void AskedRun::add_kept(std::size_t index, Snapshot& snapshot) const {
+    snapshot.touches = frames_->touches(index).value_or(std::vector<Touch>());
 }
 
 RestoredCheckpoint::RestoredCheckpoint(const fs::path& file) : RestoredCheckpoint(file, restore(file)) {}
@@ -187,7 +189,7 @@ ReachableMoments::Found ReachableMoments::at(std::int64_t step, bool touches, co
         prove(step, watcher);
         const Simulation& run = replayer_->at(step, watcher);
         Found found{run.frame(), true};
-        if (touches) found.frame.touches = touches_of(run);
+        if (touches) found.touches = touches_of(run);
         return found;
     }
     if (damage) throw *damage;

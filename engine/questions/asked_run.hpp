@@ -20,6 +20,8 @@
 
 namespace grainreel {
 
+struct Snapshot;  // engine/questions/snapshot.hpp
+
 class AskedRun {
   public:
     // Takes the archive's own scene; where it has none, makes one from the world that the frames describe.
@@ -45,8 +47,9 @@ class AskedRun {
     std::vector<std::string> faults() const;
     std::vector<std::string> news() const { return frames_->news(); }
 
-    // A moment with all that is known about it.
-    virtual Frame frame(std::size_t index) const;
+    virtual Frame frame(std::size_t index) const;  // a kept moment
+    // Adds what was kept beside the grains of that moment.
+    virtual void add_kept(std::size_t index, Snapshot& snapshot) const;
     virtual std::optional<MeasuredRow> measured_near(std::size_t index) const {
         return frames_->measured_near(index);
     }
@@ -96,7 +99,8 @@ class ReachableMoments {
 
     struct Found {
         Frame frame;
-        bool brought_back = false;  // then contacts are there too
+        bool brought_back = false;
+        std::vector<Touch> touches{};  // if they are wanted, and the moment was brought back
     };
     // Takes the moment from the first of these places that is undamaged. Throws UserError where there is
     // none, and RunError when a replay fails or the watcher stops it.

@@ -18,6 +18,7 @@
 #include "engine/files/damage.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
+#include "engine/state/contact.hpp"
 
 namespace grainreel {
 

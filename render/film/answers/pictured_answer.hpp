@@ -15,6 +15,7 @@
 #include "engine/questions/ray.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/scene/keys/keys.hpp"
+#include "engine/state/contact.hpp"
 #include "render/film/sources/recorded_run.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/gl/provider.hpp"

@@ -14,6 +14,7 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
 #include "render/film/sampling/timeline.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -22,8 +23,8 @@ namespace grainreel {
 // the pictures do without it, and news() says so.
 struct Supply {
     bool any_moment = false;    // it has every step of its span; false: only the moments of its archive
-    bool contacts = false;      // Frame::touches
-    bool measures = false;      // Frame::measures
+    bool contacts = false;      // Shot::touches
+    bool measures = false;      // Shot::measures
     bool orientations = false;  // Frame::orientation
 };
 
@@ -42,7 +43,7 @@ struct Pictures {
 };
 
 struct Taken {
-    FramePtr frame;
+    ShotPtr frame;
     int segment = 0;  // the film's segment
     int periods = 1;  // periods of the drive after which the bed repeats itself, as the film takes it
 };

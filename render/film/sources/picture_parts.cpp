@@ -54,20 +54,22 @@ std::vector<WantedMoment> PictureParts::moments(std::int64_t step, const FilmSeg
     return all;
 }
 
-void PictureParts::add(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const {
-    for (const std::int64_t step : earlier(frame.step, periods))
-        if (const FramePtr before = supply.at(step)) set_displacement(frame, *before, periods, depth_);
-    for (const std::int64_t step : exposed(frame.step, rule, periods))
-        if (FramePtr moment = supply.at(step)) frame.exposed.push_back(std::move(moment));
-    if (needs_touches(shows_)) frame.touches = supply.touches(frame);
-    if (wear_) frame.worn = supply.worn(frame);
-    if (shows_.outflow) frame.flowed_out = supply.flowed_out(frame);
+void PictureParts::add(Shot& shot, const FilmSegment& rule, int periods, const PartSupply& supply) const {
+    for (const std::int64_t step : earlier(shot.step, periods))
+        if (const FramePtr before = supply.at(step))
+            shot.displacement = displacement_since(*before, shot, periods, depth_);
+    for (const std::int64_t step : exposed(shot.step, rule, periods))
+        if (const FramePtr moment = supply.at(step))
+            shot.exposed.push_back(std::make_shared<const Shot>(*moment));
+    if (needs_touches(shows_)) shot.touches = supply.touches(shot);
+    if (wear_) shot.worn = supply.worn(shot);
+    if (shows_.outflow) shot.flowed_out = supply.flowed_out(shot);
     if (needs_measures(shows_)) {
-        PartSupply::Measured measured = supply.measured(frame);
-        frame.measures = std::move(measured.table);
-        frame.measure_rows = measured.rows;
+        PartSupply::Measured measured = supply.measured(shot);
+        shot.measures = std::move(measured.table);
+        shot.measure_rows = measured.rows;
     }
-    add_mean(frame, rule, periods, supply);
+    add_mean(shot, rule, periods, supply);
 }
 
 // Adds the mean. Before the run's first step the grains are taken to have been where they were at that step.
@@ -114,14 +116,14 @@ std::optional<Taken> EarlierPictures::next() {
         throw UserError(moments_->damage().empty()
                             ? moments_->path().string() + ": lacks a picture that it has had"
                             : moments_->damage().front());
-    Frame frame = moments_->grains(next_++);
-    add_planes(scene_.walls, frame.time, frame.bodies);
-    const auto shot = std::lower_bound(shots_.begin(), shots_.end(), frame.step,
-                                       [](const Due& one, std::int64_t step) { return one.step < step; });
-    GRAINREEL_CHECK(shot != shots_.end() && shot->step == frame.step);
-    const int periods = periods_at(frame.step);
-    parts_.add(frame, scene_.film.segments.at(static_cast<std::size_t>(shot->segment)), periods, *this);
-    return Taken{std::make_shared<const Frame>(std::move(frame)), shot->segment, periods};
+    Shot shot = moments_->grains(next_++);
+    add_planes(scene_.walls, shot.time, shot.bodies);
+    const auto due = std::lower_bound(shots_.begin(), shots_.end(), shot.step,
+                                      [](const Due& one, std::int64_t step) { return one.step < step; });
+    GRAINREEL_CHECK(due != shots_.end() && due->step == shot.step);
+    const int periods = periods_at(shot.step);
+    parts_.add(shot, scene_.film.segments.at(static_cast<std::size_t>(due->segment)), periods, *this);
+    return Taken{std::make_shared<const Shot>(std::move(shot)), due->segment, periods};
 }
 
 std::size_t EarlierPictures::rows_until(std::int64_t step) const {

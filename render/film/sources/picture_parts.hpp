@@ -1,4 +1,4 @@
-// PictureParts is the one place that adds to a frame what its picture shows besides the moment itself:
+// PictureParts is the one place that adds to a shot what its picture shows besides the moment itself:
 // displacements since an earlier period, the moments of an exposure, means over periods, contacts, measures
 // for plots and live words, and what has flowed out.
 #pragma once
@@ -14,12 +14,15 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/wear_file.hpp"
 #include "engine/frame.hpp"
+#include "engine/measure/flow/flowed_out.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/run/driver/agenda.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/contact.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/frame_source.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -56,7 +59,7 @@ class PictureParts {
 
     // Adds the parts that the source can supply. A grain that is missing at an earlier moment gets no
     // displacement or no mean.
-    void add(Frame& frame, const FilmSegment& rule, int periods, const PartSupply& supply) const;
+    void add(Shot& shot, const FilmSegment& rule, int periods, const PartSupply& supply) const;
 
   private:
     // Steps of the moments that displacements, the exposure and the mean need; empty when the picture has no

@@ -11,6 +11,7 @@
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_names.hpp"
+#include "engine/questions/snapshot.hpp"
 #include "engine/state/container_faces.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/film/sources/recorded_scene.hpp"
@@ -21,13 +22,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The archive with frames as the film shows them.
+// The archive with what the film shows beside the grains.
 class AsFilmed final : public AskedRun {
   public:
     AsFilmed(const RecordedRun& run, std::shared_ptr<const RunArchive> archive)
         : AskedRun(std::move(archive)), run_(run) {}
 
-    Frame frame(std::size_t index) const override { return run_.frame(index); }
+    void add_kept(std::size_t index, Snapshot& snapshot) const override {
+        AskedRun::add_kept(index, snapshot);
+        Shot shot(std::move(snapshot.frame));
+        run_.add_parts(shot);
+        snapshot.displacement = std::move(shot.displacement);
+        snapshot.worn = shot.worn;
+        snapshot.flowed_out = shot.flowed_out;
+        snapshot.frame = std::move(shot);
+    }
 
   private:
     const RecordedRun& run_;
@@ -254,10 +263,14 @@ PartSupply::Measured RecordedRun::measured(const Frame& frame) const {
     return {archive_->measures(), static_cast<std::size_t>(after - measured_.begin())};
 }
 
-Frame RecordedRun::frame(std::size_t index) const {
-    Frame frame = archive_->grains(index);
-    parts_->add(frame, FilmSegment(), archive_->periods(), *this);
-    return frame;
+Shot RecordedRun::frame(std::size_t index) const {
+    Shot shot = archive_->grains(index);
+    add_parts(shot);
+    return shot;
+}
+
+void RecordedRun::add_parts(Shot& shot) const {
+    parts_->add(shot, FilmSegment(), archive_->periods(), *this);
 }
 
 std::vector<Frame> RecordedRun::moments(const Pictures& pictures) const {
@@ -275,9 +288,9 @@ std::optional<Taken> RecordedRun::next(const GoOn& go_on) {
     if (!go_on() || next_ == pictures_.instants.size()) return std::nullopt;
     const Instant& instant = pictures_.instants[next_++];
     const int periods = archive_->periods();
-    Frame frame = archive_->grains(archive_->nearest(instant.time));
-    parts_->add(frame, pictures_.segments.at(static_cast<std::size_t>(instant.segment)), periods, *this);
-    return Taken{std::make_shared<const Frame>(std::move(frame)), instant.segment, periods};
+    Shot shot = archive_->grains(archive_->nearest(instant.time));
+    parts_->add(shot, pictures_.segments.at(static_cast<std::size_t>(instant.segment)), periods, *this);
+    return Taken{std::make_shared<const Shot>(std::move(shot)), instant.segment, periods};
 }
 
 }  // namespace grainreel

@@ -67,8 +67,9 @@ class RecordedRun final : public FrameSource, private PartSupply {
     const std::vector<Frame>& moments() const { return archive_->moments(); }
     const Clock& clock() const { return archive_->clock(); }
     // A frame with all that the scene's film shows. Throws as the archive does.
-    Frame frame(std::size_t index) const;
-    // The archive for questions; its frames are those that frame() gives.
+    Shot frame(std::size_t index) const;
+    void add_parts(Shot& shot) const;  // the same for a moment of the archive
+    // The archive for questions; it knows what frame() gives.
     const AskedRun& record() const { return *record_; }
     // What pictures may take from this run, and the object that adds it to them.
     const PartSupply& of_parts() const { return *this; }

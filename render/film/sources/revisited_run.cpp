@@ -263,17 +263,18 @@ bool RevisitedRun::keep_moments_until(std::int64_t step, const GoOn& go_on) {
 
 std::optional<Taken> RevisitedRun::next(const GoOn& go_on) {
     if (!go_on() || next_ == shots_.size()) return std::nullopt;
-    const Due shot = shots_[next_++];
-    if (!keep_moments_until(shot.step, go_on)) return std::nullopt;
-    std::optional<ReachableMoments::Found> found = take(shot.step, wants_touches(), go_on);
+    const Due due = shots_[next_++];
+    if (!keep_moments_until(due.step, go_on)) return std::nullopt;
+    std::optional<ReachableMoments::Found> found = take(due.step, wants_touches(), go_on);
     if (!found) return std::nullopt;
-    brought_back_ = found->brought_back ? std::optional(shot.step) : std::nullopt;
-    const int periods = film_.periods_at(shot.step);
-    Frame& frame = found->frame;
-    run_.parts().add(frame, segments_.at(static_cast<std::size_t>(shot.segment)), periods, *this);
-    const bool again = next_ < shots_.size() && shots_[next_].step == shot.step;
-    if (!again) kept_.done_with(shot.step);
-    return Taken{std::make_shared<const Frame>(std::move(frame)), shot.segment, periods};
+    brought_back_ = found->brought_back ? std::optional(due.step) : std::nullopt;
+    touches_ = std::move(found->touches);
+    const int periods = film_.periods_at(due.step);
+    Shot shot(std::move(found->frame));
+    run_.parts().add(shot, segments_.at(static_cast<std::size_t>(due.segment)), periods, *this);
+    const bool again = next_ < shots_.size() && shots_[next_].step == due.step;
+    if (!again) kept_.done_with(due.step);
+    return Taken{std::make_shared<const Shot>(std::move(shot)), due.segment, periods};
 }
 
 FramePtr RevisitedRun::at(std::int64_t step) const {
@@ -282,7 +283,7 @@ FramePtr RevisitedRun::at(std::int64_t step) const {
 }
 
 std::vector<Touch> RevisitedRun::touches(const Frame& frame) const {
-    return brought_back_ == frame.step ? frame.touches : run_.of_parts().touches(frame);
+    return brought_back_ == frame.step ? touches_ : run_.of_parts().touches(frame);
 }
 
 PartSupply::Measured RevisitedRun::measured(const Frame& frame) const {

@@ -131,8 +131,9 @@ class RevisitedRun final : public FrameSource, private PartSupply {
     KeptMoments kept_;
     std::set<std::int64_t> wanted_;  // steps whose moments later pictures need
     std::size_t next_ = 0;           // index of the next shot
-    // Step of the last picture, if it was brought back; its frame then has its contacts.
+    // Step of the last picture, if it was brought back, and its contacts.
     std::optional<std::int64_t> brought_back_;
+    std::vector<Touch> touches_;
 };
 
 }  // namespace grainreel

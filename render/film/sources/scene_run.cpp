@@ -111,8 +111,9 @@ std::optional<Taken> SceneRun::next(const GoOn& go_on) {
     earlier_.reset();
     const std::shared_ptr<Frame> frame = driver_.next(go_on);
     if (!frame) return std::nullopt;
-    parts_->add(*frame, rule(segments_waiting_.back()), bed_periods_->shown(), Parts(driver_, worn_));
-    frame_ = frame;
+    Shot shot(std::move(*frame));
+    parts_->add(shot, rule(segments_waiting_.back()), bed_periods_->shown(), Parts(driver_, worn_));
+    frame_ = std::make_shared<const Shot>(std::move(shot));
     return waiting();
 }
 
@@ -120,7 +121,7 @@ std::optional<Taken> SceneRun::waiting() {
     if (segments_waiting_.empty()) return std::nullopt;
     const int segment = segments_waiting_.front();
     segments_waiting_.erase(segments_waiting_.begin());
-    FramePtr frame = segments_waiting_.empty() ? std::move(frame_) : frame_;
+    ShotPtr frame = segments_waiting_.empty() ? std::move(frame_) : frame_;
     return Taken{std::move(frame), segment, bed_periods_->shown()};
 }
 

@@ -71,7 +71,7 @@ class SceneRun final : public FrameSource {
     // Pressure and wear of each mesh, as in the last record of fields.nc that has ended.
     std::shared_ptr<const std::vector<MeshWear>> worn_;
     std::optional<EarlierPictures> earlier_;
-    FramePtr frame_;                     // the frame that was taken last
+    ShotPtr frame_;                      // the frame that was taken last
     std::vector<int> segments_waiting_;  // segments of its pictures that are still to come
 };
 

@@ -88,7 +88,7 @@ SpherePainter::SpherePainter(const FilmedScene& scene, int width, int height, Te
     for (const std::size_t species : scene.film.shows.ghosts) painted_[species] = 1;
 }
 
-void SpherePainter::take(const View& view, const Frame& frame) {
+void SpherePainter::take(const View& view, const Shot& frame) {
     sight_ = {view.orthographic, static_cast<float>(view.focal), 0.5f * static_cast<float>(view.port.width),
               0.5f * static_cast<float>(view.port.height)};
     lamp_.up[0] = static_cast<float>(view.right.dot(up_));

@@ -34,7 +34,7 @@ FieldOutput picture_fields(const FilmedScene& scene, double width, double finest
     return fields;
 }
 
-FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period) {
+FieldState field_state_of(const FilmedScene& scene, const Shot& frame, bool period) {
     FieldState state;
     if (period && frame.displacement.size() != frame.size()) return state;
     const Vec3 way = way_of_container(scene, frame);
@@ -56,7 +56,7 @@ VelocityField::VelocityField(const FilmedScene& scene, double width, bool period
       period_(period),
       sums_(scene, picture_fields(scene, width, 0.5 * width), 1) {}
 
-void VelocityField::take(const Frame& frame) {
+void VelocityField::take(const Shot& frame) {
     sums_.clear();
     sums_.add(field_state_of(scene_, frame, period_), 0);
     fields_ = sums_.mean();

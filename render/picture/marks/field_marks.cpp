@@ -34,7 +34,7 @@ FieldLayer::FieldLayer(const FilmedScene& scene)
       quantities_(scene, scene.film.shows.colour.by),
       scale_(scene.film.shows.colour) {}
 
-void FieldLayer::gather(const Frame& frame) {
+void FieldLayer::gather(const Shot& frame) {
     for (std::vector<double>* const sums : {&solid_, &mass_, &sum_}) sums->assign(shares_.size(), 0);
     const std::vector<double>& values = quantities_.of(frame);
     const Vec3 way = way_of_container(scene_, frame);
@@ -51,7 +51,7 @@ void FieldLayer::gather(const Frame& frame) {
     }
 }
 
-void FieldLayer::draw(const View& view, const Frame& frame, Shapes& on) {
+void FieldLayer::draw(const View& view, const Shot& frame, Shapes& on) {
     gather(frame);
     const GridAxis &x = grid_.axes[0], &y = grid_.axes[1], &z = grid_.axes[2];
     const Vec3 way = way_of_container(scene_, frame);
@@ -165,7 +165,7 @@ FlowMarks::FlowMarks(const FilmedScene& scene, const Palette& palette)
         streamlines_.emplace(scene_, streamline_kernel(scene), shows.streamlines.period);
 }
 
-void FlowMarks::draw(const View& view, const Frame& frame, Shapes& on) {
+void FlowMarks::draw(const View& view, const Shot& frame, Shapes& on) {
     if (streamlines_) {
         streamlines_->take(frame);
         draw_streamlines(view, frame, on);

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "engine/run/driver/agenda.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -88,9 +89,9 @@ struct Asked {
 };
 
 // The picture, made in both ways, which must give the same.
-Frame picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grain,
-              const PlaceAt& wall = at_rest, std::int64_t first = 0) {
-    Frame at_will = frame_at(asked.shot, grain(asked.shot), wall(asked.shot)), passing = at_will;
+Shot picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grain,
+             const PlaceAt& wall = at_rest, std::int64_t first = 0) {
+    Shot at_will = frame_at(asked.shot, grain(asked.shot), wall(asked.shot)), passing = at_will;
     parts.add(at_will, asked.rule, asked.periods, AnyMoment(grain, wall, first));
     KeptMoments kept;
     for (const int periods : {1, 2}) kept.want(asked.shot, parts.moments(asked.shot, asked.rule, periods));
@@ -114,7 +115,7 @@ std::vector<std::int64_t> steps_of(const std::vector<WantedMoment>& moments) {
 TEST(PictureParts, OfAPlainFilmAreNone) {
     const PictureParts parts(FilmedScene(), kClock, 0);
     EXPECT_TRUE(parts.moments(1600, FilmSegment(), 1).empty());
-    const Frame now = picture(parts, {1600, FilmSegment()}, [](std::int64_t) { return Vec3(1, 2, 3); });
+    const Shot now = picture(parts, {1600, FilmSegment()}, [](std::int64_t) { return Vec3(1, 2, 3); });
     EXPECT_EQ(now.position[0], Vec3(1, 2, 3));
     EXPECT_EQ(now.velocity[0], Vec3(9, 9, 9));
     EXPECT_TRUE(now.displacement.empty() && now.exposed.empty() && now.touches.empty() && !now.measures);
@@ -128,7 +129,7 @@ TEST(PictureParts, GiveTheWayOfAPeriod) {
         // The way goes through the periodic wall: 3 mm, not -37 mm.
         return step < 400 ? Vec3(0.019, 0, 0.1) : Vec3(-0.018, 0.002, 0.11);
     };
-    const Frame now = picture(parts, {802, FilmSegment()}, moved, at_rest, 2);
+    const Shot now = picture(parts, {802, FilmSegment()}, moved, at_rest, 2);
     ASSERT_EQ(now.displacement.size(), 1u);
     EXPECT_LT((now.displacement[0] - Vec3(0.003, 0.002, 0.01)).norm(), 1e-12);
     EXPECT_TRUE(picture(parts, {801, FilmSegment()}, moved, at_rest, 2).displacement.empty());
@@ -140,9 +141,9 @@ TEST(PictureParts, GiveTheMeanWayOfAPeriodOverSeveral) {
     const auto bounced = [](std::int64_t step) {
         return Vec3(0, 0, 0.001 * kClock.cycles(step) + (step / 800 % 2 ? 0.5 : 0));
     };
-    const Frame two = picture(parts, {1600, FilmSegment(), 2}, bounced);
+    const Shot two = picture(parts, {1600, FilmSegment(), 2}, bounced);
     EXPECT_LT((two.displacement.at(0) - Vec3(0, 0, 0.001)).norm(), 1e-12);
-    const Frame one = picture(parts, {2400, FilmSegment(), 1}, bounced);
+    const Shot one = picture(parts, {2400, FilmSegment(), 1}, bounced);
     EXPECT_LT((one.displacement.at(0) - Vec3(0, 0, 0.501)).norm(), 1e-12);
 }
 
@@ -152,7 +153,7 @@ TEST(PictureParts, GiveTheMomentsOfAnExposure) {
     rule.exposures = 4;
     const PictureParts parts(FilmedScene(), kClock, 150);
     EXPECT_THAT(steps_of(parts.moments(400, rule, 1)), testing::ElementsAre(200, 300)) << "100 is before it";
-    const Frame now =
+    const Shot now =
         picture(parts, {600, rule}, [](std::int64_t step) { return Vec3(0, 0, static_cast<double>(step)); });
     ASSERT_EQ(now.exposed.size(), 3u);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -174,7 +175,7 @@ TEST(PictureParts, OfAMeanLeaveTheDriftAlone) {
     constexpr std::int64_t kShot = 4300;
     const PictureParts parts(FilmedScene(), kClock, 0);
     EXPECT_THAT(parts.moments(kShot, mean_of(3), 1), testing::SizeIs(3 * 16)) << "beside its own";
-    const Frame now = picture(
+    const Shot now = picture(
         parts, {kShot, mean_of(3)}, [&](std::int64_t step) { return shaken(step, drift); },
         [](std::int64_t step) { return shaken(step, Vec3::Zero()); });
     // The mean of 48 samples, which are 1/16 of a period apart and end now, lags by half of 47 of these
@@ -194,7 +195,7 @@ TEST(PictureParts, OfAMeanSpanThePeriodsOfTheBed) {
         return shaken(step, drift) + Vec3(0, 0, 0.003) * std::sin(std::numbers::pi * kClock.cycles(step));
     };
     for (const int periods : {1, 2}) {
-        const Frame frame =
+        const Shot frame =
             picture(PictureParts(FilmedScene(), kClock, 0), {kShot, mean_of(1), periods}, doubled);
         const double error = (frame.velocity[0] - drift).norm();
         if (periods == 2)
@@ -220,7 +221,7 @@ TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
         return at;
     };
     for (const std::int64_t shot : {800, 1600}) {  // in the first period the grain passes the end at 0.01 s
-        const Frame now = picture(PictureParts(scene, kClock, 0), {shot, mean_of(1)}, wrapped);
+        const Shot now = picture(PictureParts(scene, kClock, 0), {shot, mean_of(1)}, wrapped);
         double expected = 0.1 * (kClock.time(shot) - 0.5 * 15 * 50 * kClock.step) + 0.019;
         expected -= kDepth * std::round(expected / kDepth);
         EXPECT_NEAR(now.position[0].x(), expected, 1e-15) << shot;
@@ -229,8 +230,8 @@ TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
 }
 
 TEST(PictureParts, OfAMeanTakeTheBedToHaveRestedBeforeTheRun) {
-    const Frame now = picture(PictureParts(FilmedScene(), kClock, 0), {400, mean_of(1)},
-                              [](std::int64_t step) { return Vec3(0, 0, 1e-5 * static_cast<double>(step)); });
+    const Shot now = picture(PictureParts(FilmedScene(), kClock, 0), {400, mean_of(1)},
+                             [](std::int64_t step) { return Vec3(0, 0, 1e-5 * static_cast<double>(step)); });
     double expected = 0;  // 9 samples are from step 0 to 400, and 7 are at rest
     for (int k = 0; k <= 8; ++k) expected += 1e-5 * 50 * k / 16;
     EXPECT_NEAR(now.position[0].z(), expected, 1e-15);
@@ -239,7 +240,7 @@ TEST(PictureParts, OfAMeanTakeTheBedToHaveRestedBeforeTheRun) {
 // If the source lacks a moment, no part is made of the others.
 TEST(PictureParts, LeaveOutWhatIsNotToBeHad) {
     const PictureParts parts(scene_with_displacements(), kClock, 0);
-    Frame now = frame_at(1600, Vec3(1, 2, 3));
+    Shot now = frame_at(1600, Vec3(1, 2, 3));
     parts.add(now, mean_of(1), 1, AnyMoment(at_rest, at_rest, 1500));
     EXPECT_EQ(now.position[0], Vec3(1, 2, 3));
     EXPECT_TRUE(now.displacement.empty());
@@ -264,7 +265,7 @@ TEST(PictureParts, LeaveOutWaysOfGrainsThatHaveComeOrGone) {
     };
     const WithAnother before(
         [&](std::int64_t step) { return with(frame_at(step, Vec3(0, 0, 1)), 1, Vec3(7, 8, 9)); });
-    Frame now = with(frame_at(1600, Vec3(0, 0, 3)), 2, Vec3(4, 5, 6));
+    Shot now = with(frame_at(1600, Vec3(0, 0, 3)), 2, Vec3(4, 5, 6));
     parts.add(now, mean_of(1), 1, before);
     EXPECT_EQ(now.position[1], Vec3(4, 5, 6));
     EXPECT_EQ(now.velocity[1], Vec3(0, 0, 0));

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.hpp"
+#include "render/picture/base/shot.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -160,7 +161,7 @@ TEST_F(Recorded, GivesItsFramesInAnyOrder) {
     EXPECT_THAT(archive.before(3, 0.1), testing::ElementsAre(1, 2));
 
     // A frame is the same whoever asks for it and whatever frame was read before.
-    const Frame last = record.frame(4), first = record.frame(0), again = record.frame(4);
+    const Shot last = record.frame(4), first = record.frame(0), again = record.frame(4);
     EXPECT_EQ(last.position, again.position);
     EXPECT_EQ(last.displacement, again.displacement);
     EXPECT_EQ(last.displacement.size(), 50u);
@@ -168,9 +169,8 @@ TEST_F(Recorded, GivesItsFramesInAnyOrder) {
     EXPECT_FALSE(last.touches.empty());
     EXPECT_EQ(last.measure_rows, 4u * 8 + 1);  // eight a period
     EXPECT_EQ(first.measure_rows, 1u);
-    const Frame bare = archive.grains(4), before = archive.grains(3);
-    EXPECT_EQ(bare.position, last.position);
-    EXPECT_TRUE(bare.displacement.empty() && bare.touches.empty() && !bare.measures);
+    const Frame before = archive.grains(3);
+    EXPECT_EQ(archive.grains(4).position, last.position);
     EXPECT_EQ(last.displacement[7], (last.position[7] - before.position[7]).eval());
 
     const Pictures pictures{{{0.06, 0}, {0.19, 0}}, {FilmSegment()}, false};
@@ -196,7 +196,7 @@ TEST_F(Recorded, GivesMeansAndExposuresWhereItHasTheirMoments) {
     exposed.exposures = 4;
     record.start({{{0.15, 1}, {0.2, 0}}, {mean, exposed}, false});
     const auto go_on = [] { return true; };
-    const Frame four = *record.next(go_on)->frame, averaged = *record.next(go_on)->frame;
+    const Shot four = *record.next(go_on)->frame, averaged = *record.next(go_on)->frame;
     const FrameArchive& archive = *record.archive();
     const std::size_t at = archive.nearest(0.2);
     Vec3 expected = Vec3::Zero();
@@ -229,7 +229,7 @@ TEST_F(Recorded, IsReadWhileItGrows) {
         EXPECT_THAT(record.news(), Not(testing::Contains(HasSubstr("damaged:"))));
         last = record.moments().size();
         if (turn == 0) first = last;
-        const Frame frame = record.frame(last - 1);
+        const Shot frame = record.frame(last - 1);
         EXPECT_FALSE(frame.touches.empty()) << "frame " << last - 1;
         const double row = record.moments()[last - 1].time / (0.05 / 8);  // the last row at that time
         EXPECT_GE(static_cast<double>(frame.measure_rows), row - 1e-6);
