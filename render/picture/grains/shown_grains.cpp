@@ -56,7 +56,7 @@ const Shot& ShownGrains::of(const Shot& frame) {
     if (!any()) return frame;
     const std::vector<HalfSpace> halves = kept_by_cut(cut_, frame);
     const auto is_kept = [&](std::size_t i) {
-        if (!left_out_.empty() && left_out_[static_cast<std::size_t>(frame.species[i])]) return false;
+        if (!left_out_.empty() && left_out_[frame.species[i]]) return false;
         if (!only_.empty() && !std::binary_search(only_.begin(), only_.end(), frame.id[i])) return false;
         return std::all_of(halves.begin(), halves.end(), [&](const HalfSpace& half) {
             return half.normal.dot(frame.position[i]) - half.distance > -frame.radius[i];
@@ -149,7 +149,7 @@ const std::vector<double>& Quantities::of(const Shot& frame) {
                 values_[i] = frame.spin[i].norm();
                 break;
             case GrainValue::kinetic_energy:
-                values_[i] = kinetic_energy(frame, i, density_[static_cast<std::size_t>(frame.species[i])]);
+                values_[i] = kinetic_energy(frame, i, density_[frame.species[i]]);
                 break;
             default:
                 break;

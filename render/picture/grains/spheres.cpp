@@ -22,7 +22,7 @@ GluedSpheres::GluedSpheres(const FilmedScene& scene) {
     const std::vector<Face> faces = container_faces(scene.container, scene.drive);
     const GluedGrains glued = glue_grains(scene, faces);
     for (std::size_t g = 0; g < glued.size(); ++g) {
-        const Face& face = faces[static_cast<std::size_t>(glued.face[g])];
+        const Face& face = faces[glued.face[g]];
         const Vec3 at = glued.centre(g, faces, {});
         const bool plane = face.kind == Face::Kind::plane;
         const Vec3 inward = plane ? face.normal : Vec3(-Vec3(at.x(), at.y(), 0).normalized());
@@ -146,7 +146,7 @@ void SpherePainter::mark_painted(const Frame& frame) {
     for (std::size_t i = 0; i < frame.size(); ++i)
         spheres_.painted.push_back(
             not_painted_.empty()
-                ? painted_[static_cast<std::size_t>(frame.species[i])]
+                ? painted_[frame.species[i]]
                 : !std::binary_search(not_painted_.begin(), not_painted_.end(), frame.id[i]));
 }
 

@@ -28,8 +28,7 @@ Trails::Trails(const FilmedScene& scene)
 }
 
 bool Trails::chosen(std::int32_t id, std::int32_t species) const {
-    return species_[static_cast<std::size_t>(species)] ||
-           std::find(grains_.begin(), grains_.end(), id) != grains_.end();
+    return species_[species] || std::find(grains_.begin(), grains_.end(), id) != grains_.end();
 }
 
 void Trails::take(const Frame& frame) {
