@@ -10,19 +10,9 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/state/contact.hpp"
 #include "engine/state/pose.hpp"
 
 namespace grainreel {
-
-class MeasureTable;  // engine/measure/measures.hpp
-struct MeshWear;     // engine/measure/walls/mesh_wear.hpp
-
-// Number and mass of the grains that have left a run.
-struct FlowedOut {
-    std::int64_t grains = 0;
-    double mass = 0;  // kg
-};
 
 // The index of the wanted id in a list of rising ids; empty where the list lacks it.
 inline std::optional<std::size_t> row_of_id(const std::vector<std::int32_t>& ids, std::int64_t wanted) {
@@ -53,26 +43,8 @@ struct Frame {
     std::vector<double> radius;
     std::vector<Vec3> position, velocity, spin;
     std::vector<Quaternion> orientation;  // empty unless the scene asks for it
-    std::vector<Vec3> displacement;  // over the last period of the drive; empty before one has passed, and
-                                     // unless the film asks for it
-
-    std::vector<Touch> touches;  // empty unless the film asks for them
     std::vector<std::int32_t>
         contact_number;  // number of contacts of a grain that carry force; empty where unknown
-
-    // The rows of measures.csv so far: the first `measure_rows` rows of a table that goes on growing. Null
-    // unless the film asks for it.
-    std::shared_ptr<const MeasureTable> measures;
-    std::size_t measure_rows = 0;
-
-    // Pressure and wear on the triangles of each mesh. Null unless the film asks for it.
-    std::shared_ptr<const std::vector<MeshWear>> worn;
-
-    std::optional<FlowedOut> flowed_out;  // since the run began; empty unless the film asks for it
-
-    // Earlier moments, by rising time, that the exposure of the picture covers besides this one. Their own
-    // lists `exposed` are empty.
-    std::vector<std::shared_ptr<const Frame>> exposed;
 
     std::size_t size() const { return id.size(); }
     // The row of the grain with this id; empty where there is no such grain.

@@ -16,7 +16,7 @@
 
 #include "engine/files/file_facts.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
-#include "engine/frame.hpp"
+#include "engine/state/contact.hpp"
 
 namespace grainreel {
 

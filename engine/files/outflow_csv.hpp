@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/base/plain_file.hpp"
-#include "engine/frame.hpp"
+#include "engine/measure/flow/flowed_out.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/traffic.hpp"
 

@@ -202,7 +202,7 @@ void FrameWriter::Impl::begin(const grainreel::Frame& first) {
     supply.orientations = !first.orientation.empty();
     writer->begin(world, supply);
     begun = true;
-    for (const grainreel::Frame& frame : waiting) writer->frame(frame);
+    for (const grainreel::Frame& frame : waiting) writer->frame(frame, {});
     waiting.clear();
 }
 
@@ -213,7 +213,7 @@ void FrameWriter::Impl::put(const grainreel::Frame& frame) {
         return;
     }
     if (!begun) begin(frame);
-    writer->frame(frame);
+    writer->frame(frame, {});
 }
 
 void FrameWriter::Impl::check_orientation(const grainreel::Frame& frame) const {

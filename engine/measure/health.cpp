@@ -143,7 +143,7 @@ void check_way_of_a_step(const HealthLimits& limits, const Grains& grains, std::
 void check_vessel(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                   std::int64_t step) {
     if (limits.vessel < 0) return;
-    const MeshWall& vessel = around.meshes[static_cast<std::size_t>(limits.vessel)];
+    const MeshWall& vessel = around.meshes[limits.vessel];
     const BodyPose pose = vessel.body.at(around.motion.at(step));
     const MeshFacts& facts = vessel.surface->facts();
     for (std::size_t i = 0; i < grains.size(); ++i) {

@@ -30,7 +30,7 @@ Vec3 level_direction(int i) {
         return std::array<Vec3, 4>{Vec3(1, 0, 0), Vec3(far, near, 0), Vec3(diagonal, diagonal, 0),
                                    Vec3(near, far, 0)};
     }();
-    Vec3 direction = quarter[static_cast<std::size_t>(i % 4)];
+    Vec3 direction = quarter[i % 4];
     for (int turns = i / 4; turns > 0; --turns) direction = Vec3(-direction.y(), direction.x(), 0);
     return direction;
 }
@@ -39,21 +39,21 @@ LevelSection::LevelSection(const Surface& surface, const std::vector<char>& clos
     std::vector<std::int32_t> triangles;
     surface.across_level(z, triangles);
     segments_.reserve(triangles.size());
-    for (const std::int32_t t : triangles) cut(surface, t, closed[static_cast<std::size_t>(t)] != 0, z);
-    for (int i = 0; i < kLevelAxes; ++i) sort_across(axes_[static_cast<std::size_t>(i)], i);
+    for (const std::int32_t t : triangles) cut(surface, t, closed[t] != 0, z);
+    for (int i = 0; i < kLevelAxes; ++i) sort_across(axes_[i], i);
 }
 
 // One side of the triangle runs up through the level, and another runs down. Seen from above, the normal lies
 // to the right of the way from the second crossing to the first.
 void LevelSection::cut(const Surface& surface, std::int32_t triangle, bool closed, double z) {
-    const TriangleMesh::Triangle& numbers = surface.mesh().triangles[static_cast<std::size_t>(triangle)];
+    const TriangleMesh::Triangle& numbers = surface.mesh().triangles[triangle];
     Segment segment{{}, {}, closed};
     for (int e = 0; e < 3; ++e) {
         const int f = (e + 1) % 3;
         const Vec3 &begin = surface.corner(triangle, e), &end = surface.corner(triangle, f);
         const bool from_above = begin.z() >= z, to_above = end.z() >= z;
         if (from_above == to_above) continue;
-        const bool back = numbers[static_cast<std::size_t>(e)] > numbers[static_cast<std::size_t>(f)];
+        const bool back = numbers[e] > numbers[f];
         (to_above ? segment.b : segment.a) = back ? crossing(end, begin, z) : crossing(begin, end, z);
     }
     segments_.push_back(segment);
@@ -106,7 +106,7 @@ bool LevelSection::encloses(double x, double y) const {
         const std::size_t bin = std::min(bins - 1, static_cast<std::size_t>(scaled));
         bool ahead = false, behind = false;
         for (std::uint32_t i = axis.begins[bin]; i < axis.begins[bin + 1] && !(ahead && behind); ++i) {
-            const Segment& segment = segments_[static_cast<std::size_t>(axis.segments[i])];
+            const Segment& segment = segments_[axis.segments[i]];
             const double ua = axis.across.dot(segment.a) - u, ub = axis.across.dot(segment.b) - u;
             if ((ua <= 0) == (ub <= 0)) continue;
             const double sa = axis.along.dot(segment.a), sb = axis.along.dot(segment.b);

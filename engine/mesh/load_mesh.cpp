@@ -47,7 +47,7 @@ constexpr double slender = 1e-3;     // height divided by longest edge
 using Box = Eigen::AlignedBox3d;
 
 const Vec3& at(const TriangleMesh& mesh, std::int32_t vertex) {
-    return mesh.vertices[static_cast<std::size_t>(vertex)];
+    return mesh.vertices[vertex];
 }
 
 Box box_of(const TriangleMesh& mesh) {
@@ -104,7 +104,7 @@ std::int64_t drop_doubled(TriangleMesh& mesh) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         TriangleMesh::Triangle t = mesh.triangles[i];
         std::sort(t.begin(), t.end());
-        sorted[next[static_cast<std::size_t>(t[0])]++] = {t[1], t[2], static_cast<std::int32_t>(i)};
+        sorted[next[t[0]]++] = {t[1], t[2], static_cast<std::int32_t>(i)};
     }
     std::vector<char> doubled(mesh.triangles.size(), 0);
     for (std::size_t low = 0; low + 1 < begins.size(); ++low) {
@@ -112,8 +112,7 @@ std::int64_t drop_doubled(TriangleMesh& mesh) {
                    end = sorted.begin() + static_cast<std::ptrdiff_t>(begins[low + 1]);
         std::sort(first, end);
         for (auto it = first; it != end && it + 1 != end; ++it)
-            if (it->middle == it[1].middle && it->high == it[1].high)
-                doubled[static_cast<std::size_t>(it[1].triangle)] = 1;
+            if (it->middle == it[1].middle && it->high == it[1].high) doubled[it[1].triangle] = 1;
     }
     std::size_t i = 0;
     return static_cast<std::int64_t>(
@@ -141,26 +140,25 @@ class Cells {
 
     // The first vertex that this one can be joined with, or -1.
     std::int32_t match(std::int32_t vertex) const {
-        const Vec3& place = welding_.vertices[static_cast<std::size_t>(vertex)];
+        const Vec3& place = welding_.vertices[vertex];
         std::array<std::int64_t, 3> low{}, high{};
         for (int k = 0; k < 3; ++k) {
-            low[static_cast<std::size_t>(k)] = cell(place[k] - welding_.reach);
-            high[static_cast<std::size_t>(k)] = cell(place[k] + welding_.reach);
+            low[k] = cell(place[k] - welding_.reach);
+            high[k] = cell(place[k] + welding_.reach);
         }
         std::int32_t found = -1;
         for (std::int64_t x = low[0]; x <= high[0]; ++x)
             for (std::int64_t y = low[1]; y <= high[1]; ++y)
                 for (std::int64_t z = low[2]; z <= high[2]; ++z)
-                    for (std::int32_t i = heads_[slot(x, y, z)]; i >= 0;
-                         i = next_[static_cast<std::size_t>(i)])
+                    for (std::int32_t i = heads_[slot(x, y, z)]; i >= 0; i = next_[i])
                         if ((found < 0 || i < found) && fits(i, vertex)) found = i;
         return found;
     }
 
     void add(std::int32_t vertex) {
-        const Vec3& place = welding_.vertices[static_cast<std::size_t>(vertex)];
+        const Vec3& place = welding_.vertices[vertex];
         std::int32_t& head = heads_[slot(cell(place.x()), cell(place.y()), cell(place.z()))];
-        next_[static_cast<std::size_t>(vertex)] = head;
+        next_[vertex] = head;
         head = vertex;
     }
 
@@ -197,7 +195,7 @@ std::vector<std::int32_t> joined(const Welding& welding, const std::vector<std::
         if (match < 0)
             cells.add(vertex);
         else
-            place[static_cast<std::size_t>(vertex)] = match;
+            place[vertex] = match;
     }
     return place;
 }
@@ -208,7 +206,7 @@ std::int64_t replace_vertices(TriangleMesh& mesh, const std::vector<std::int32_t
     for (std::size_t i = 0; i < place_of.size(); ++i) gone += place_of[i] != static_cast<std::int32_t>(i);
     if (gone == 0) return 0;
     for (TriangleMesh::Triangle& triangle : mesh.triangles)
-        for (std::int32_t& corner : triangle) corner = place_of[static_cast<std::size_t>(corner)];
+        for (std::int32_t& corner : triangle) corner = place_of[corner];
     return gone;
 }
 
@@ -219,10 +217,10 @@ void drop_unused_vertices(TriangleMesh& mesh) {
     vertices.reserve(mesh.vertices.size());
     for (TriangleMesh::Triangle& triangle : mesh.triangles)
         for (std::int32_t& corner : triangle) {
-            std::int32_t& now = number[static_cast<std::size_t>(corner)];
+            std::int32_t& now = number[corner];
             if (now < 0) {
                 now = static_cast<std::int32_t>(vertices.size());
-                vertices.push_back(mesh.vertices[static_cast<std::size_t>(corner)]);
+                vertices.push_back(mesh.vertices[corner]);
             }
             corner = now;
         }
@@ -236,7 +234,7 @@ std::int64_t close_cracks(TriangleMesh& mesh, double extent) {
         if (sides.size() != 1) return;
         const double length = crack_room * (at(mesh, low) - at(mesh, sides[0].high)).norm();
         for (const std::int32_t vertex : {low, sides[0].high}) {
-            double& least = room[static_cast<std::size_t>(vertex)];
+            double& least = room[vertex];
             least = least > 0 ? std::min(least, length) : length;
         }
     });

@@ -38,7 +38,7 @@ EdgeTable::EdgeTable(const TriangleMesh& mesh) : begins_(mesh.vertices.size() + 
     for (const TriangleMesh::Triangle& t : mesh.triangles)
         for (std::size_t e = 0; e < 3; ++e, ++side) {
             const std::int32_t a = t[e], b = t[(e + 1) % 3];
-            sides_[next[static_cast<std::size_t>(std::min(a, b))]++] = {std::max(a, b), side};
+            sides_[next[std::min(a, b)]++] = {std::max(a, b), side};
         }
     for (std::size_t i = 0; i + 1 < begins_.size(); ++i)
         if (begins_[i + 1] - begins_[i] > 1)
@@ -57,9 +57,9 @@ std::vector<char> in_closed_part(const TriangleMesh& mesh) {
         if (sum != 0) open.push_back(sides[0].side / 3);
     });
     std::vector<char> part_closed(mesh.triangles.size(), 1), closed(mesh.triangles.size());
-    for (const std::int32_t triangle : open) part_closed[static_cast<std::size_t>(parts.root(triangle))] = 0;
+    for (const std::int32_t triangle : open) part_closed[parts.root(triangle)] = 0;
     for (std::size_t t = 0; t < closed.size(); ++t)
-        closed[t] = part_closed[static_cast<std::size_t>(parts.root(static_cast<std::int32_t>(t)))];
+        closed[t] = part_closed[parts.root(static_cast<std::int32_t>(t))];
     return closed;
 }
 

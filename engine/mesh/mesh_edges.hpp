@@ -49,10 +49,10 @@ class EdgeTable {
 
 // The vertex at which a side begins.
 inline std::int32_t begin_of(const TriangleMesh& mesh, std::int32_t side) {
-    return mesh.triangles[static_cast<std::size_t>(side / 3)][static_cast<std::size_t>(side % 3)];
+    return mesh.triangles[side / 3][side % 3];
 }
 inline std::int32_t end_of(const TriangleMesh& mesh, std::int32_t side) {
-    return mesh.triangles[static_cast<std::size_t>(side / 3)][static_cast<std::size_t>((side + 1) % 3)];
+    return mesh.triangles[side / 3][(side + 1) % 3];
 }
 
 // Sets of numbers that are joined step by step.
@@ -79,7 +79,7 @@ class DisjointSets {
     }
 
   private:
-    std::int32_t& parent(std::int32_t i) { return parent_[static_cast<std::size_t>(i)]; }
+    std::int32_t& parent(std::int32_t i) { return parent_[i]; }
     std::vector<std::int32_t> parent_;
 };
 

@@ -41,7 +41,7 @@ std::optional<int> EnclosedRoom::winding_along(const Vec3& place, const Vec3& di
     if (hits.empty()) return std::nullopt;
     int winding = 0;
     for (const Surface::Hit& hit : hits)
-        if (closed_[static_cast<std::size_t>(hit.triangle)]) winding += hit.front ? -1 : 1;
+        if (closed_[hit.triangle]) winding += hit.front ? -1 : 1;
     return winding;
 }
 
@@ -136,8 +136,7 @@ void RoomGrid::mark_free(const Surface& surface, const std::array<int, 3>& first
     }
     for (int z = first[2]; z < first[2] + size; ++z)
         for (int y = first[1]; y < first[1] + size; ++y)
-            for (int x = first[0]; x < first[0] + size; ++x)
-                free_[static_cast<std::size_t>((z * kAcross + y) * kAcross + x)] = 1;
+            for (int x = first[0]; x < first[0] + size; ++x) free_[(z * kAcross + y) * kAcross + x] = 1;
 }
 
 // A region is one layer of cells high. A place is judged by level rays alone, so the answer may change from
@@ -145,16 +144,15 @@ void RoomGrid::mark_free(const Surface& surface, const std::array<int, 3>& first
 void RoomGrid::answer_region(std::int32_t seed, const std::function<bool(const Vec3&)>& holds,
                              std::size_t most) {
     std::vector<std::int32_t> region{seed};
-    free_[static_cast<std::size_t>(seed)] = 0;
+    free_[seed] = 0;
     for (std::size_t next = 0; next < region.size(); ++next) {
         const std::int32_t cell = region[next];
         std::int32_t place = cell, step = 1;
         for (int k = 0; k < 2; ++k, place /= kAcross, step *= kAcross)
             for (const int way : {-1, 1}) {
                 const int there = place % kAcross + way;
-                if (there < 0 || there >= kAcross || !free_[static_cast<std::size_t>(cell + way * step)])
-                    continue;
-                free_[static_cast<std::size_t>(cell + way * step)] = 0;
+                if (there < 0 || there >= kAcross || !free_[cell + way * step]) continue;
+                free_[cell + way * step] = 0;
                 region.push_back(cell + way * step);
             }
     }
@@ -165,8 +163,7 @@ void RoomGrid::answer_region(std::int32_t seed, const std::function<bool(const V
         inside += holds(middle({cell % kAcross, cell / kAcross % kAcross, cell / kAcross / kAcross}, 1));
         if (inside != 0 && inside != i + 1) return;
     }
-    for (const std::int32_t cell : region)
-        answers_[static_cast<std::size_t>(cell)] = inside > 0 ? Answer::inside : Answer::outside;
+    for (const std::int32_t cell : region) answers_[cell] = inside > 0 ? Answer::inside : Answer::outside;
 }
 
 RoomGrid::Answer RoomGrid::at(const Vec3& place) const {

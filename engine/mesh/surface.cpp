@@ -40,7 +40,7 @@ Surface::Surface(TriangleMesh mesh, MeshFacts facts, std::string hash)
 void Surface::find_normals() {
     normals_.resize(mesh_.triangles.size());
     for (std::int32_t t = 0; t < size(); ++t)
-        normals_[static_cast<std::size_t>(t)] = normal_of(corner(t, 0), corner(t, 1), corner(t, 2));
+        normals_[t] = normal_of(corner(t, 0), corner(t, 1), corner(t, 2));
 }
 
 void Surface::find_neighbours() {
@@ -61,10 +61,8 @@ void Surface::find_neighbours() {
         if (sides.size() != 2) return;
         const std::int32_t a = sides[0].side, b = sides[1].side;
         const bool flips = begin_of(mesh_, a) == begin_of(mesh_, b);
-        neighbours_[static_cast<std::size_t>(a / 3)][static_cast<std::size_t>(a % 3)] = {
-            b / 3, turn(a, b, flips), flips};
-        neighbours_[static_cast<std::size_t>(b / 3)][static_cast<std::size_t>(b % 3)] = {
-            a / 3, turn(b, a, flips), flips};
+        neighbours_[a / 3][a % 3] = {b / 3, turn(a, b, flips), flips};
+        neighbours_[b / 3][b % 3] = {a / 3, turn(b, a, flips), flips};
     });
 }
 
@@ -102,7 +100,7 @@ struct Item {
 
 int longest_axis(const std::vector<Item>& items, std::int32_t first, std::int32_t end) {
     Eigen::AlignedBox3d box;
-    for (std::int32_t i = first; i < end; ++i) box.extend(items[static_cast<std::size_t>(i)].middle);
+    for (std::int32_t i = first; i < end; ++i) box.extend(items[i].middle);
     int axis = 0;
     box.sizes().maxCoeff(&axis);
     return axis;
@@ -126,8 +124,7 @@ void Surface::build_tree() {
     const std::int32_t count = size();
     if (count == 0) return;
     std::vector<Item> items(mesh_.triangles.size());
-    for (std::int32_t t = 0; t < count; ++t)
-        items[static_cast<std::size_t>(t)] = {(corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3, t};
+    for (std::int32_t t = 0; t < count; ++t) items[t] = {(corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3, t};
     nodes_.reserve(mesh_.triangles.size());
     nodes_.push_back({{}, 0, count});
     for (std::size_t n = 0; n < nodes_.size();
@@ -150,11 +147,11 @@ void Surface::build_tree() {
     for (std::size_t n = nodes_.size(); n-- > 0;) {
         Node& node = nodes_[n];
         if (node.count == 0) {
-            node.box = nodes_[static_cast<std::size_t>(node.first)].box;
+            node.box = nodes_[node.first].box;
             node.box.extend(nodes_[static_cast<std::size_t>(node.first) + 1].box);
         }
         for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-            for (int k = 0; k < 3; ++k) node.box.extend(corner(order_[static_cast<std::size_t>(i)], k));
+            for (int k = 0; k < 3; ++k) node.box.extend(corner(order_[i], k));
     }
 }
 
@@ -173,15 +170,15 @@ void Surface::visit(const Vec3& point, double squared_reach, Within&& within) co
     while (size > 0) {
         const Waiting next = stack[--size];
         if (next.squared > squared_reach) continue;
-        const Node& node = nodes_[static_cast<std::size_t>(next.node)];
+        const Node& node = nodes_[next.node];
         for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-            const std::int32_t triangle = order_[static_cast<std::size_t>(i)];
+            const std::int32_t triangle = order_[i];
             const NearestPoint nearest_point = nearest(triangle, point);
             if (nearest_point.squared <= squared_reach) squared_reach = within(triangle, nearest_point);
             if (squared_reach < 0) return;
         }
         if (node.count > 0) continue;
-        Waiting near{node.first, squared_to(nodes_[static_cast<std::size_t>(node.first)].box, point)};
+        Waiting near{node.first, squared_to(nodes_[node.first].box, point)};
         Waiting far{node.first + 1, squared_to(nodes_[static_cast<std::size_t>(node.first) + 1].box, point)};
         if (far.squared < near.squared) std::swap(near, far);
         if (far.squared <= squared_reach) stack[size++] = far;
@@ -228,14 +225,14 @@ void Surface::across_level(double z, std::vector<std::int32_t>& found) const {
     std::size_t size = 0;
     stack[size++] = 0;
     while (size > 0) {
-        const Node& node = nodes_[static_cast<std::size_t>(stack[--size])];
+        const Node& node = nodes_[stack[--size]];
         if (!(node.box.min().z() < z && z <= node.box.max().z())) continue;
         if (node.count == 0) {
             stack[size++] = node.first;
             stack[size++] = node.first + 1;
         }
         for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-            const std::int32_t t = order_[static_cast<std::size_t>(i)];
+            const std::int32_t t = order_[i];
             const int above = (corner(t, 0).z() >= z) + (corner(t, 1).z() >= z) + (corner(t, 2).z() >= z);
             if (above != 0 && above != 3) found.push_back(t);
         }

@@ -42,14 +42,11 @@ class Surface {
     std::int32_t size() const { return static_cast<std::int32_t>(mesh_.triangles.size()); }
 
     const Vec3& corner(std::int32_t triangle, int k) const {
-        return mesh_
-            .vertices[static_cast<std::size_t>(mesh_.triangles[static_cast<std::size_t>(triangle)][k])];
+        return mesh_.vertices[mesh_.triangles[triangle][k]];
     }
-    const Vec3& normal(std::int32_t triangle) const { return normals_[static_cast<std::size_t>(triangle)]; }
+    const Vec3& normal(std::int32_t triangle) const { return normals_[triangle]; }
     double area(std::int32_t triangle) const;  // m2
-    const Neighbour& neighbour(std::int32_t triangle, int edge) const {
-        return neighbours_[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(edge)];
-    }
+    const Neighbour& neighbour(std::int32_t triangle, int edge) const { return neighbours_[triangle][edge]; }
 
     // The point of a triangle nearest to `point`. On the face it is the foot of the perpendicular. On a
     // shared edge both triangles give the same bits, and at a corner it is the vertex itself. On a slender

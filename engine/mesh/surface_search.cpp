@@ -47,9 +47,9 @@ NearestPoint nearest_on_edge(const Corners& corners, std::size_t e, const Vec3& 
 // code does not, because they mean nothing on slender triangles. There the sides of the edges decide, and the
 // result is right to within the triangle's height.
 NearestPoint Surface::nearest(std::int32_t triangle, const Vec3& point) const {
-    const TriangleMesh::Triangle& numbers = mesh_.triangles[static_cast<std::size_t>(triangle)];
+    const TriangleMesh::Triangle& numbers = mesh_.triangles[triangle];
     Corners corners{numbers, {}};
-    for (std::size_t k = 0; k < 3; ++k) corners.at[k] = &mesh_.vertices[static_cast<std::size_t>(numbers[k])];
+    for (std::size_t k = 0; k < 3; ++k) corners.at[k] = &mesh_.vertices[numbers[k]];
     const Vec3& n = normal(triangle);
     const Vec3 to[3] = {point - *corners.at[0], point - *corners.at[1], point - *corners.at[2]};
     NearestPoint best{point, -1, Feature::face};
@@ -179,16 +179,16 @@ void Surface::visit_ray(const Vec3& from, const Vec3& direction, double reach, M
     while (size > 0) {
         const Waiting next = stack[--size];
         if (next.distance > reach) continue;
-        const Node& node = nodes_[static_cast<std::size_t>(next.node)];
+        const Node& node = nodes_[next.node];
         for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-            const std::int32_t t = order_[static_cast<std::size_t>(i)];
+            const std::int32_t t = order_[i];
             bool front = false;
             const double distance = ray.meets(corner(t, 0), corner(t, 1), corner(t, 2), front);
             if (distance >= 0 && distance <= reach) reach = met(Hit{t, distance, front});
             if (reach < 0) return;
         }
         if (node.count > 0) continue;
-        Waiting near{node.first, ray.enters(nodes_[static_cast<std::size_t>(node.first)].box)};
+        Waiting near{node.first, ray.enters(nodes_[node.first].box)};
         Waiting far{node.first + 1, ray.enters(nodes_[static_cast<std::size_t>(node.first) + 1].box)};
         if (far.distance < near.distance) std::swap(near, far);
         if (far.distance >= 0 && far.distance <= reach) stack[size++] = far;

@@ -89,7 +89,7 @@ std::int64_t step_of_frame(const StoredRun& run, const MomentRequest& request) {
 // The snapshot of a restored run, without accelerations.
 Snapshot snapshot_of(const Simulation& simulation, const StoredRun& run) {
     Snapshot snapshot{run.known_scene(), simulation.frame(), true, run.first()};
-    snapshot.frame.touches = touches_of(simulation);
+    snapshot.touches = touches_of(simulation);
     snapshot.measured =
         MeasuredRow{snapshot.frame.time, simulation.measured(), simulation.measures().values()};
     snapshot.forces.emplace();
@@ -98,14 +98,14 @@ Snapshot snapshot_of(const Simulation& simulation, const StoredRun& run) {
 }
 
 // Adds the displacements over the last period, where the run kept the moment a period earlier.
-void add_kept_ways(const StoredRun& run, Frame& frame) {
+void add_kept_ways(const StoredRun& run, Snapshot& snapshot) {
     const Clock& clock = run.clock();
     if (!run.known_scene().drive.present || clock.step <= 0) return;
-    const std::int64_t before = clock.step_at(clock.cycles(frame.step) - run.periods());
+    const std::int64_t before = clock.step_at(clock.cycles(snapshot.frame.step) - run.periods());
     const std::optional<std::size_t> index = run.index_near(clock.time(before));
     if (before >= run.moments().front().step && index)
-        set_displacement(frame, run.grains(*index), run.periods(),
-                         period_of_depth(run.known_scene().container));
+        snapshot.displacement = displacement_since(run.grains(*index), snapshot.frame, run.periods(),
+                                                   period_of_depth(run.known_scene().container));
 }
 
 void check_can_bring_back(const StoredRun& run, const AskedMoment& moment) {
@@ -162,8 +162,8 @@ bool has_checkpoint(const StoredRun& run, const AskedMoment& moment) {
 Snapshot kept_snapshot(const StoredRun& run, std::size_t index, bool with_ways) {
     Snapshot snapshot{run.known_scene(), run.grains(index), run.has_contacts_of(index), run.first()};
     if (std::optional<std::vector<Touch>> touches = run.touches(index))
-        snapshot.frame.touches = std::move(*touches);
-    if (with_ways) add_kept_ways(run, snapshot.frame);
+        snapshot.touches = std::move(*touches);
+    if (with_ways) add_kept_ways(run, snapshot);
     snapshot.measured = run.measured_near(index);
     const FrameSupply supply = run.supply();
     snapshot.spins = supply.spins;
@@ -200,7 +200,8 @@ Snapshot brought_back_with_ways(StoredRun& run, const AskedMoment& moment, const
             periods == 1 ? "one period" : fmt::format("{} periods", periods), moment.time));
     const Frame then = run.brought_back(before.step, watcher).frame();
     Snapshot snapshot = brought_back_snapshot(run, moment, watcher);
-    set_displacement(snapshot.frame, then, periods, period_of_depth(scene.container));
+    snapshot.displacement =
+        displacement_since(then, snapshot.frame, periods, period_of_depth(scene.container));
     return snapshot;
 }
 

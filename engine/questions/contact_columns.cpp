@@ -21,7 +21,7 @@ namespace {
 template <class See>
 std::vector<double> over_touches(const Snapshot& s, const GrainList& grains, const See& value_of) {
     std::vector<double> sums(s.frame.size(), 0), values;
-    for (const Touch& touch : s.frame.touches)
+    for (const Touch& touch : s.touches)
         for (const std::int32_t id : {touch.first, touch.second})
             if (id >= 0)
                 if (const auto grain = s.place_of(id)) sums[*grain] += value_of(touch);
@@ -218,7 +218,7 @@ std::vector<double> values_of_touches(const Snapshot& s, int number, const Grain
         if (one < 0 || !is_meant(s, number, other)) return;
         if (const auto place = s.place_of(one)) found[*place] = 1;
     };
-    for (const Touch& touch : s.frame.touches) {
+    for (const Touch& touch : s.touches) {
         note(touch.first, touch.second);
         note(touch.second, touch.first);
     }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/questions/snapshot.hpp"
+#include "engine/state/contact.hpp"
 
 namespace grainreel {
 

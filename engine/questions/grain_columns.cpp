@@ -230,11 +230,11 @@ double moved(const Snapshot& s, std::size_t i) {
 }
 
 double period_displacement(const Snapshot& s, std::size_t i) {
-    return s.frame.displacement.empty() ? no_value : s.frame.displacement[i].norm();
+    return s.displacement.empty() ? no_value : s.displacement[i].norm();
 }
 
 double period_rise(const Snapshot& s, std::size_t i) {
-    return s.frame.displacement.empty() ? no_value : s.frame.displacement[i].z();
+    return s.displacement.empty() ? no_value : s.displacement[i].z();
 }
 
 }  // namespace

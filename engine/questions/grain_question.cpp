@@ -43,7 +43,7 @@ AnswerTable contacts_table(const Snapshot& s, std::size_t grain) {
                        {"normal_force", Dimension::force, ""},
                        {"partner_height", Dimension::length, "above the floor"}},
                       {}};
-    for (const Touch& touch : s.frame.touches) {
+    for (const Touch& touch : s.touches) {
         if (touch.first != id && touch.second != id) continue;
         const std::int32_t partner = touch.first == id ? touch.second : touch.first;
         AnswerCell number, height;

@@ -42,7 +42,7 @@ AnswerTable moment_table(const Snapshot& s) {
          {"touching", Dimension::number, "without a force too; empty of a kept moment"}},
         {}};
     AnswerCell contacts, touching;
-    if (s.contacts) contacts = static_cast<std::int64_t>(s.frame.touches.size());
+    if (s.contacts) contacts = static_cast<std::int64_t>(s.touches.size());
     if (s.forces) touching = static_cast<std::int64_t>(s.forces->contacts.size());
     table.rows.push_back({s.frame.time, s.frame.step, s.frame.cycles, floor_offset(s.scene, s.frame).z(),
                           static_cast<std::int64_t>(s.frame.size()), contacts, touching});
@@ -136,7 +136,7 @@ AnswerTable extremes_table(const Snapshot& s) {
 std::vector<AnswerCell> kept_wall_row(const Snapshot& s, std::int32_t wall) {
     std::int64_t count = 0;
     double normal = 0;
-    for (const Touch& touch : s.frame.touches)
+    for (const Touch& touch : s.touches)
         if (touch.second == wall) ++count, normal += touch.force;
     return {name_of_body(s, wall), count, {}, {}, {}, normal};
 }

@@ -18,7 +18,7 @@ bool Snapshot::has(Needs what) const {
         case Needs::forces:
             return forces.has_value();
         case Needs::period:
-            return !frame.displacement.empty() || frame.size() == 0;
+            return !displacement.empty() || frame.size() == 0;
         case Needs::velocities:
             return velocities;
         case Needs::spins:
@@ -96,15 +96,16 @@ std::string name_of_body(const Snapshot& snapshot, std::int32_t id) {
     return wall < names.size() ? names[wall] : fmt::format("wall {}", wall);
 }
 
-void set_displacement(Frame& now, const Frame& before, int periods, double depth) {
+std::vector<Vec3> displacement_since(const Frame& before, const Frame& now, int periods, double depth) {
     const std::vector<std::size_t> rows = rows_in(before, now);
-    now.displacement.assign(now.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    std::vector<Vec3> displacement(now.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
     for (std::size_t i = 0; i < now.size(); ++i) {
         if (rows[i] == kNoRow) continue;
         Vec3 way = now.position[i] - before.position[rows[i]];
         way.x() = nearest_image(way.x(), depth);
-        now.displacement[i] = way / periods;
+        displacement[i] = way / periods;
     }
+    return displacement;
 }
 
 }  // namespace grainreel

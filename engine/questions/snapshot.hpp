@@ -2,16 +2,22 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/base/vector.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
+#include "engine/measure/flow/flowed_out.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/contact.hpp"
 
 namespace grainreel {
+
+struct MeshWear;  // engine/measure/walls/mesh_wear.hpp
 
 // What only the engine knows about a moment.
 struct SnapshotForces {
@@ -23,14 +29,19 @@ struct SnapshotForces {
 
 // What a question may need and a snapshot may lack. forces: SnapshotForces, which only a moment that was
 // brought back (computed again from a checkpoint) has. period: how far grains moved in the last period of the
-// drive (Frame::displacement). Some files of other programs have no velocities or spins.
+// drive (Snapshot::displacement). Some files of other programs have no velocities or spins.
 enum class Needs { nothing, contacts, forces, period, velocities, spins };
 
 struct Snapshot {
     const Scene& scene;
-    Frame frame;                             // its grains, and touches where they are known
-    bool contacts = false;                   // whether touches are known
-    Frame start;                             // the run's first moment
+    Frame frame;
+    bool contacts = false;             // whether touches are known
+    Frame start;                       // the run's first moment
+    std::vector<Touch> touches{};      // contacts of the moment
+    std::vector<Vec3> displacement{};  // m, of each grain over the last period; empty where not known
+    // Pressure and wear of the meshes, and what has flowed out; only of a kept moment whose film shows them.
+    std::shared_ptr<const std::vector<MeshWear>> worn{};
+    std::optional<FlowedOut> flowed_out{};
     std::optional<SnapshotForces> forces{};  // only where the moment was brought back
     std::optional<MeasuredRow> measured{};   // measures at the moment, or the row nearest to it in time
     double bin_width = 0;                    // m, of bins along lengths; 0: the mean diameter of the grains
@@ -60,10 +71,10 @@ std::optional<std::size_t> mesh_of_wall(const Scene& scene, std::int32_t wall);
 // The species of a grain ("small") or, for a wall's number, its name ("floor"), as in contacts.nc.
 std::string name_of_body(const Snapshot& snapshot, std::int32_t id);
 
-// Sets Frame::displacement: how far each grain moved in a period of the drive. It is the vector from its
-// place in `before` to its place now, divided by the number of periods in between; NaN for a grain that was
-// not there before. `depth` (m, along x) is the length after which a periodic container repeats; 0 for none.
-void set_displacement(Frame& now, const Frame& before, int periods, double depth);
+// How far each grain moved in a period of the drive: the vector (m) from its place in `before` to its place
+// now, divided by the number of periods in between; NaN for a grain that was not there before. `depth` (m,
+// along x) is the length after which a periodic container repeats; 0 for none.
+std::vector<Vec3> displacement_since(const Frame& before, const Frame& now, int periods, double depth);
 
 // The same grains in two frames. Ids rise in both, and some grains may have come or gone between them.
 

@@ -92,7 +92,7 @@ DriveChange DriveSchedule::change(std::size_t piece) const {
 double DriveSchedule::begins(std::size_t stage) const {
     const auto first = std::find_if(pieces_.begin(), pieces_.end(),
                                     [&](const Piece& piece) { return piece.stage == stage; });
-    return times_.stretches()[static_cast<std::size_t>(first - pieces_.begin())].start;
+    return times_.stretches()[first - pieces_.begin()].start;
 }
 
 double DriveSchedule::settled(std::size_t stage) const {

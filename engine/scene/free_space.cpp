@@ -181,10 +181,10 @@ class Flood {
             if (is_beyond(here)) return place_left(ways[next]);
             for (const Node& beside : neighbours_of(here)) {
                 const int number = number_of(beside);
-                if (!is_there(beside) || from_[static_cast<std::size_t>(number)] != kUnseen) continue;
+                if (!is_there(beside) || from_[number] != kUnseen) continue;
                 const Vec3 a = place_of(here), b = place_of(beside);
                 if (radius_ > 0 ? !is_free(surface_, a, b, radius_) : !is_free(surface_, a, b)) continue;
-                from_[static_cast<std::size_t>(number)] = ways[next];
+                from_[number] = ways[next];
                 ways.push_back(number);
             }
         }
@@ -204,8 +204,7 @@ class Flood {
     Vec3 place_of(const Node& n) const {
         constexpr double off[3] = {0.4873, 0.5171, 0.5067};
         Vec3 place;
-        for (int k = 0; k < 3; ++k)
-            place[k] = low_[k] + (n[static_cast<std::size_t>(k)] - 1 + off[k]) * step_[k];
+        for (int k = 0; k < 3; ++k) place[k] = low_[k] + (n[k] - 1 + off[k]) * step_[k];
         return place;
     }
     static std::array<Node, 6> neighbours_of(const Node& n) {
@@ -231,7 +230,7 @@ class Flood {
         for (int k = 0; k < kSteps * kSteps * kSteps && found.size() < enough; k += apart) {
             const Node node{1 + k % kSteps, 1 + k / kSteps % kSteps, 1 + k / kSteps / kSteps};
             if (!room_.holds(place_of(node), std::max(radius_, 1e-9 * step_.maxCoeff()))) continue;
-            from_[static_cast<std::size_t>(number_of(node))] = kSeed;
+            from_[number_of(node)] = kSeed;
             found.push_back(number_of(node));
         }
         return found;
@@ -240,7 +239,7 @@ class Flood {
     // The first place outside the room on the way from a seed to this place.
     Vec3 place_left(int number) const {
         int outside = number;
-        for (int at = number; at != kSeed; at = from_[static_cast<std::size_t>(at)]) {
+        for (int at = number; at != kSeed; at = from_[at]) {
             if (room_.holds(place_of(node_of(at)))) break;
             outside = at;
         }

@@ -185,7 +185,7 @@ class PathReader {
     }
 
     double number(const std::vector<std::string_view>& cells, Column column) const {
-        std::string_view cell = cells[static_cast<std::size_t>(at_[column])];
+        std::string_view cell = cells[at_[column]];
         const std::string_view shown = cell;
         if (!cell.empty() && cell.front() == '+') cell.remove_prefix(1);
         double value = 0;

@@ -68,7 +68,7 @@ double share_touching(const BedInFile& bed) {
     std::vector<bool> touches(bed.grains.size(), false);
     for (const BedInFile::Overlap& overlap : bed.overlaps) {
         touches[overlap.first] = true;
-        if (overlap.second >= 0) touches[static_cast<std::size_t>(overlap.second)] = true;
+        if (overlap.second >= 0) touches[overlap.second] = true;
     }
     const auto count = std::count(touches.begin(), touches.end(), true);
     return static_cast<double>(count) / static_cast<double>(touches.size());

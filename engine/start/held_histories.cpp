@@ -118,7 +118,7 @@ class HeldHistories {
         } else if (sort == Sort::glued) {
             if (same_glued_) held_[{first, second, sort}] = {group, at, false};
         } else if (sort == Sort::mesh) {
-            const std::int32_t mesh = mesh_[static_cast<std::size_t>(mesh_of(second))];
+            const std::int32_t mesh = mesh_[mesh_of(second)];
             const Bodies bodies{first, mesh, sort};
             if (mesh >= 0 && !held_.insert({bodies, {group, at, false}}).second)
                 in_several_places_.push_back(bodies);

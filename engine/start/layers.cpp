@@ -220,8 +220,7 @@ double largest_overlap(const StepLoop& loop) {
 
 std::vector<Vec3> places_by_id(const Grains& grains) {
     std::vector<Vec3> places(grains.size());
-    for (std::size_t i = 0; i < grains.size(); ++i)
-        places[static_cast<std::size_t>(grains.id[i])] = grains.place[i].position;
+    for (std::size_t i = 0; i < grains.size(); ++i) places[grains.id[i]] = grains.place[i].position;
     return places;
 }
 
@@ -238,8 +237,7 @@ void come_to_rest(Growing& g) {
 
 // Puts the grains back to where they were before their radii grew.
 void begin_again(Growing& g, const std::vector<Vec3>& places) {
-    for (std::size_t i = 0; i < places.size(); ++i)
-        g.grains.place[i].position = places[static_cast<std::size_t>(g.grains.id[i])];
+    for (std::size_t i = 0; i < places.size(); ++i) g.grains.place[i].position = places[g.grains.id[i]];
     come_to_rest(g);
 }
 

@@ -132,7 +132,7 @@ using Edge = std::array<std::int32_t, 2>;
 std::vector<Edge> edges_of(const Surface& surface) {
     std::vector<Edge> edges;
     for (std::int32_t t = 0; t < surface.size(); ++t) {
-        const auto& corners = surface.mesh().triangles[static_cast<std::size_t>(t)];
+        const auto& corners = surface.mesh().triangles[t];
         for (std::size_t e = 0; e < 3; ++e)
             if (const std::int32_t other = surface.neighbour(t, static_cast<int>(e)).triangle; other < t)
                 edges.push_back({corners[e], corners[(e + 1) % 3]});
@@ -188,7 +188,7 @@ class Crossings {
         const std::vector<Vec3>& vertices = one_.surface->mesh().vertices;
         const Eigen::AlignedBox3d box(other_.surface->facts().low, other_.surface->facts().high);
         const auto seen_from_other = [&](std::int32_t vertex) {
-            return its.at_rest(pose.moved(vertices[static_cast<std::size_t>(vertex)]));
+            return its.at_rest(pose.moved(vertices[vertex]));
         };
         for (std::size_t e = 0; e < edges_.size(); e += stride_) {
             const Vec3 a = seen_from_other(edges_[e][0]), b = seen_from_other(edges_[e][1]);

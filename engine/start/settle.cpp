@@ -108,15 +108,14 @@ std::vector<Level> levels_of(const Plan& plan) {
 
 std::vector<Vec3> places_by_id(const Grains& grains) {
     std::vector<Vec3> places(grains.size());
-    for (std::size_t i = 0; i < grains.size(); ++i)
-        places[static_cast<std::size_t>(grains.id[i])] = grains.place[i].position;
+    for (std::size_t i = 0; i < grains.size(); ++i) places[grains.id[i]] = grains.place[i].position;
     return places;
 }
 
 bool stayed(const std::vector<Vec3>& before, const Grains& grains) {
     double moved = 0;
     for (std::size_t i = 0; i < grains.size(); ++i) {
-        const Vec3 way = grains.place[i].position - before[static_cast<std::size_t>(grains.id[i])];
+        const Vec3 way = grains.place[i].position - before[grains.id[i]];
         moved += way.norm() > kFarthest * 2 * grains.place[i].radius;
     }
     return moved <= kFew * static_cast<double>(grains.size());

@@ -24,7 +24,7 @@ struct GluedGrains {
     bool empty() const { return place.empty(); }
     // Centre (m) of a glued grain at a pose of the drive.
     Vec3 centre(std::size_t g, const std::vector<Face>& faces, const Pose& pose) const {
-        const Face& on = faces[static_cast<std::size_t>(face[g])];
+        const Face& on = faces[face[g]];
         return place[g].position + on.point + on.displacement(pose);
     }
 };

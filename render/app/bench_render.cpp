@@ -18,6 +18,7 @@
 #include "render/app/messages/reporter.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/png.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/spheres/light/lamp.hpp"
@@ -113,9 +114,9 @@ constexpr std::array<DrawStage, 8> kStages = {{{"upload", &DrawTimes::upload},
                                                {"readback", &DrawTimes::readback}}};
 
 // The share of the picture that shows grains. It is found by comparing the picture with one without grains.
-double coverage(Renderer& renderer, const Frame& frame) {
+double coverage(Renderer& renderer, const Shot& frame) {
     const Picture full = renderer.draw(frame, "");
-    const Picture& bare = renderer.draw(Frame{}, "");
+    const Picture& bare = renderer.draw(Shot(), "");
     std::int64_t covered = 0;
     for (std::size_t i = 0; i < full.rgba.size(); i += 4)
         covered += !std::equal(&full.rgba[i], &full.rgba[i] + 3, &bare.rgba[i]);
@@ -136,7 +137,7 @@ class DrawnStages {
     }
     Renderer& full() { return *renderers_.front().renderer; }
 
-    void measure(const Frame& frame) {
+    void measure(const Shot& frame) {
         for (Variant& variant : renderers_) {
             const DrawTimes times = variant.renderer->draw_timed(frame, "");
             for (std::size_t s = 0; s < kStages.size(); ++s)
@@ -228,7 +229,7 @@ int bench_render(const BenchRenderRequest& request, Reporter& reporter) {
         return kSignalBase + stop_signal();
     }
     FilmedScene scene = scene_of(bed, request);
-    const Frame frame = frame_of(bed);
+    const Shot frame = frame_of(bed);
     fill_picture(scene, frame);
     DrawnStages stages(scene, threads);
     Renderer& renderer = stages.full();

@@ -21,6 +21,7 @@
 #include "engine/scene/bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -312,8 +313,9 @@ Picture Painter::draw(const Frame& frame, const std::string& words) {
     check_words(words, "the words of a picture");
     grainreel::Frame inner = inside(frame, impl_->species, who);
     take_poses(inner, frame.bodies.size(), std::max(impl_->bodies, inner.bodies.size()), who);
+    const Shot shot(std::move(inner));
     const grainreel::Picture& drawn =
-        told([&]() -> const grainreel::Picture& { return impl_->renderer.draw(inner, words); });
+        told([&]() -> const grainreel::Picture& { return impl_->renderer.draw(shot, words); });
     return {drawn.width, drawn.height, drawn.rgba};
 }
 

@@ -201,7 +201,7 @@ struct WordKinds {
 };
 
 // The functions needs_*() tell which parts of a frame the film needs besides the state of the grains:
-// Frame::displacement, Frame::measures, Frame::touches.
+// Shot::displacement, Shot::measures, Shot::touches.
 inline bool shows_value(const FilmShows& look, GrainValue value) {
     return look.colour.by == value || look.highlight_if.of == value;
 }

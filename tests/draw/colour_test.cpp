@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "render/picture/base/colour_scale.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/plots/axes.hpp"
 #include "render/scene/shown_values.hpp"
@@ -56,22 +57,22 @@ FilmedScene coloured(GrainValue by, double low, double high, const std::string& 
     return scene;
 }
 
-void expect_albedo(GrainColours& colours, const Frame& frame, std::size_t grain, const Colour& expected) {
+void expect_albedo(GrainColours& colours, const Shot& frame, std::size_t grain, const Colour& expected) {
     const Albedo& albedo = colours.of(frame)[grain];
     EXPECT_NEAR(to_srgb(albedo[0]), expected.red, 0.002);
     EXPECT_NEAR(to_srgb(albedo[1]), expected.green, 0.002);
     EXPECT_NEAR(to_srgb(albedo[2]), expected.blue, 0.002);
 }
 
-Frame two_balls() {
-    Frame frame = frame_of({{{0, -0.02, 0.1}, 0.0025, 0}, {{0, 0.02, 0.08}, 0.005, 1}});
+Shot two_balls() {
+    Shot frame = frame_of({{{0, -0.02, 0.1}, 0.0025, 0}, {{0, 0.02, 0.08}, 0.005, 1}});
     frame.velocity[0] = {0.3, 0, -0.4};
     frame.spin[1] = {0, 30, 40};
     return frame;
 }
 
 TEST(GrainColours, FollowTheFormulaOfTheQuantity) {
-    const Frame frame = two_balls();
+    const Shot frame = two_balls();
     const auto check = [&](GrainValue by, double low, double high, double first, double second) {
         const FilmedScene scene = coloured(by, low, high, "");
         GrainColours colours(scene);
@@ -104,14 +105,14 @@ TEST(GrainLabels, SayWhichGrainIsNotThere) {
     Renderer renderer(scene, 1);
     renderer.draw(two_balls(), "");
     EXPECT_EQ(renderer.last_note(), "label \"nobody\": no grain has had the id 7");
-    Frame later = two_balls();
+    Shot later = two_balls();
     later.id = {0, 7};
     renderer.draw(later, "");
     EXPECT_EQ(renderer.last_note(), "");
 }
 
 TEST(GrainColours, ContactsAreCountedOfBothPartners) {
-    Frame frame = two_balls();
+    Shot frame = two_balls();
     frame.touches = {{0, 1, 0.3}, {1, -2, 0.5}};
     GrainColours number(coloured(GrainValue::coordination, 0, 4, ""));
     expect_albedo(number, frame, 0, colour_of(ColourMap::viridis, 0.25));
@@ -123,20 +124,20 @@ TEST(GrainColours, ContactsAreCountedOfBothPartners) {
 
 TEST(GrainColours, LayersAreThoseOfTheFirstFrame) {
     GrainColours colours(coloured(GrainValue::start_height, 0, 0.125, "mm"));
-    Frame frame = two_balls();  // heights 0.1 and 0.08, in the fifth and the fourth of five layers
+    Shot frame = two_balls();  // heights 0.1 and 0.08, in the fifth and the fourth of five layers
     expect_albedo(colours, frame, 0, colour_of(ColourMap::viridis, 1));
     expect_albedo(colours, frame, 1, colour_of(ColourMap::viridis, 0.75));
     std::swap(frame.position[0], frame.position[1]);
     expect_albedo(colours, frame, 0, colour_of(ColourMap::viridis, 1));
     expect_albedo(colours, frame, 1, colour_of(ColourMap::viridis, 0.75));
-    Frame more = two_balls();
+    Shot more = two_balls();
     more.id = {0, 2};  // one of them was not there at the start
     expect_albedo(colours, more, 1, neutral_grain);
 }
 
 TEST(GrainColours, WithoutDisplacementsTheyAreGrey) {
     GrainColours colours(coloured(GrainValue::rise, -0.004, 0.004, "mm"));
-    Frame frame = two_balls();
+    Shot frame = two_balls();
     expect_albedo(colours, frame, 0, neutral_grain);
     frame.displacement = {{0, 0, 0.001}, {0.003, 0, -0.002}};
     expect_albedo(colours, frame, 0, colour_of(ColourMap::vik, 0.625));
@@ -147,7 +148,7 @@ TEST(GrainColours, WithoutDisplacementsTheyAreGrey) {
 TEST(GrainColours, MeanTheSameInEveryFrame) {
     const FilmedScene scene = coloured(GrainValue::speed, 0, 1, "m/s");
     Renderer renderer(scene, 1);
-    Frame frame = two_balls();
+    Shot frame = two_balls();
     const Picture before = renderer.draw(frame, "");
     frame.velocity[1] = {0, 0, 100};
     const Picture after = renderer.draw(frame, "");
@@ -190,7 +191,7 @@ TEST(GrainColours, AreReadThroughLightAndShade) {
             scene.film.look.ground = false;
             scene.film.shows.colour.map = map;
             Renderer renderer(scene, 2);
-            Frame frame = frame_of(balls);
+            Shot frame = frame_of(balls);
             std::vector<std::array<double, 3>> of_map;
             for (int k = 0; k <= 100; ++k) of_map.push_back(lab(colour_of(map, 0.01 * k)));
             const Picture empty = renderer.draw(frame_of({}), "");

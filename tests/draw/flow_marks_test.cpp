@@ -1,4 +1,5 @@
 // Tests of the velocity field of arrows and streamlines, and of the lines themselves.
+#include "render/picture/base/shot.hpp"
 #include "render/picture/marks/field_marks.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@ namespace grainreel::test {
 namespace {
 
 // Grains spread evenly over the upper part of the wedge, of two sizes and species.
-Frame spread_grains() {
+Shot spread_grains() {
     std::vector<Ball> balls;
     for (int k = 0; k < 4000; ++k) {
         const double y = -0.07 + 0.14 * std::fmod(k * 0.618034, 1), z = 0.15 * std::fmod(k * 0.754878, 1);
@@ -21,15 +22,15 @@ Frame spread_grains() {
 
 const Vec3 turning(7, 0, 0), axis(0, 0.01, 0.08);  // rad/s, m
 
-Frame rotating_grains() {
-    Frame frame = spread_grains();
+Shot rotating_grains() {
+    Shot frame = spread_grains();
     for (std::size_t i = 0; i < frame.size(); ++i)
         frame.velocity[i] = turning.cross(frame.position[i] - axis);
     return frame;
 }
 
 // sum m v W / sum m W with W = exp(-r^2 / 2 w^2) within 3 w (Goldhirsch 2010, Granul. Matter 12, 239, eq. 4).
-Vec3 coarse_grained(const Frame& frame, double width, double y, double z) {
+Vec3 coarse_grained(const Shot& frame, double width, double y, double z) {
     Vec3 momentum = Vec3::Zero();
     double mass = 0;
     for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -44,7 +45,7 @@ Vec3 coarse_grained(const Frame& frame, double width, double y, double z) {
 
 TEST(VelocityField, IsMomentumOverMassUnderTheKernel) {
     const FilmedScene scene = wedge();
-    const Frame frame = rotating_grains();
+    const Shot frame = rotating_grains();
     constexpr double width = 0.006;
     VelocityField field(scene, width, false);
     field.take(frame);
@@ -66,7 +67,7 @@ TEST(VelocityField, IsMomentumOverMassUnderTheKernel) {
 // the grid.
 TEST(VelocityField, StandsWhereTheAxisOfATurningContainerIs) {
     FilmedScene scene = wedge();
-    Frame frame = rotating_grains();
+    Shot frame = rotating_grains();
     VelocityField still(scene, 0.006, false);
     still.take(frame);
     FilmedScene drum = wedge();
@@ -86,7 +87,7 @@ TEST(VelocityField, StandsWhereTheAxisOfATurningContainerIs) {
 
 TEST(VelocityField, OfAPeriodIsDisplacementTimesFrequency) {
     const FilmedScene scene = wedge();
-    Frame frame = spread_grains();
+    Shot frame = spread_grains();
     VelocityField field(scene, 0.006, true);
     field.take(frame);
     EXPECT_FALSE(field.at(0, 0.12)) << "no displacements yet";
@@ -103,7 +104,7 @@ TEST(VelocityField, OfAPeriodIsDisplacementTimesFrequency) {
 TEST(VelocityField, OfAPeriodGoesByTheFrequencyThatIsOn) {
     FilmedScene scene = wedge();
     scene.drive.stages = {{DriveStage::Kind::vibrate, 0.1, 3, 45, 0.001}};
-    Frame frame = spread_grains();
+    Shot frame = spread_grains();
     frame.displacement.assign(frame.size(), Vec3(0, 0.001, -0.002));
     VelocityField field(scene, 0.006, true);
     for (const auto& [cycles, frequency] : {std::pair{1.5, 20}, {9.0, 45}}) {
@@ -119,7 +120,7 @@ TEST(VelocityField, NeedsThreeGrainsAndGoesWithTheContainer) {
     const FilmedScene scene = wedge();
     const Vec3 moved(0, 0.003, 0.004);
     const auto field_of = [&](int grains) {
-        Frame frame =
+        Shot frame =
             frame_of(std::vector<Ball>(static_cast<std::size_t>(grains), {Vec3(0, 0, 0.12) + moved, 0.0025}));
         frame.velocity.assign(frame.size(), Vec3(0, 0, 1));
         frame.container().place = moved;
@@ -162,7 +163,7 @@ TEST(Streamlines, EndWhereTheFlowDoes) {
     EXPECT_TRUE(streamline(half, {0.02, 0}, 0.05, 0.001).empty());
 }
 
-Extent extent_of_marks(const FilmedScene& scene, const Frame& frame) {
+Extent extent_of_marks(const FilmedScene& scene, const Shot& frame) {
     Shapes shapes;
     FlowMarks(scene, make_palette({1, 1, 1})).draw(view_of(scene), frame, shapes);
     return extent_of_vertices(shapes);
@@ -178,8 +179,8 @@ FilmedScene flat_scene() {
     return scene;
 }
 
-Frame moving(const std::vector<Ball>& balls, const Vec3& velocity) {
-    Frame frame = frame_of(balls);
+Shot moving(const std::vector<Ball>& balls, const Vec3& velocity) {
+    Shot frame = frame_of(balls);
     frame.velocity.assign(frame.size(), velocity);
     return frame;
 }
@@ -193,7 +194,7 @@ TEST(Arrows, GoWithTheFlowAndAreNotTooLong) {
     const Pixel middle = view.project(Vec3(0, 0, 0.075));
     const double cell = 0.05 * view.focal;
     for (const double speed : {0.05, -0.05, 0.1, 1.0}) {
-        const Frame frame = moving(std::vector<Ball>(3, {Vec3(0, 0, 0.075), 1e-4, 0}), Vec3(0, speed, 0));
+        const Shot frame = moving(std::vector<Ball>(3, {Vec3(0, 0, 0.075), 1e-4, 0}), Vec3(0, speed, 0));
         Shapes shapes;
         FlowMarks(scene, make_palette({1, 1, 1})).draw(view, frame, shapes);
         double widest = 0, at = 0;
@@ -221,7 +222,7 @@ TEST(Streamlines, LieAlongTheFlow) {
 TEST(Streamlines, AreInThePictureAndFadeWithTheFlow) {
     FilmedScene scene = wedge();
     scene.film.words = WordPlace::none;
-    Frame frame = rotating_grains();
+    Shot frame = rotating_grains();
     const Picture plain = Renderer(scene, 1).draw(frame, "");
     scene.film.shows.streamlines = {8, 0.2, false};
     const Rectangle all{0, 0, plain.width, plain.height};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/whole/layers.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -40,7 +41,7 @@ int ball_at(const View& view, double x, double y) {
 
 TEST(Ghosts, LetTheOthersShowThroughAndTakeNothingFromThem) {
     FilmedScene scene = straight_on();
-    const Frame frame = frame_of(kBalls);
+    const Shot frame = frame_of(kBalls);
     const Picture opaque = Renderer(scene, 1).draw(frame, "");
     scene.film.shows.hidden = {0};
     const Picture without = Renderer(scene, 1).draw(frame, "");
@@ -70,7 +71,7 @@ TEST(Ghosts, LetTheOthersShowThroughAndTakeNothingFromThem) {
 TEST(Ghosts, DrawTheSameForAnyNumberOfThreads) {
     FilmedScene scene = straight_on();
     scene.film.shows.ghosts = {0};
-    const Frame frame = frame_of(kBalls);
+    const Shot frame = frame_of(kBalls);
     const Picture alone = Renderer(scene, 1).draw(frame, "");
     for (const int threads : {2, 3}) EXPECT_EQ(Renderer(scene, threads).draw(frame, "").rgba, alone.rgba);
 }
@@ -117,8 +118,8 @@ TEST(Exposure, ShowsEachMomentsGrainsAndTheLastOnesMarks) {
     scene.film.shows.highlighted = {0};
     const auto at = [](double y) { return frame_of({{{0, y, 0.08}, 0.008, 0}}); };
     const Picture here = Renderer(scene, 1).draw(at(0.02), "");
-    Frame exposed = at(0.02);
-    for (const double y : {-0.02, 0.0}) exposed.exposed.push_back(std::make_shared<const Frame>(at(y)));
+    Shot exposed = at(0.02);
+    for (const double y : {-0.02, 0.0}) exposed.exposed.push_back(std::make_shared<const Shot>(at(y)));
     Renderer renderer(scene, 1);
     const Picture streak = renderer.draw(exposed, "");
     const View view = view_of(scene);

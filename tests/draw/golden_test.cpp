@@ -13,6 +13,7 @@
 #include <random>
 
 #include "engine/measure/measures.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/scene/film.hpp"
 #include "tests/draw/support.hpp"
@@ -88,7 +89,7 @@ void expect_golden(const std::string& name, const Picture& picture) {
 }
 
 // A loose bed in the wedge: grains on a lattice, moved a little at random, with the big ones below.
-Frame bed() {
+Shot bed() {
     std::mt19937 random(5);
     const auto some = [&] { return static_cast<double>(random()) / 4294967295.0 - 0.5; };
     std::vector<Ball> balls;
@@ -101,7 +102,7 @@ Frame bed() {
                 balls.push_back(
                     {{x + 0.0004 * some(), y + 0.0004 * some(), z + 0.0004 * some()}, radius, big ? 1 : 0});
     }
-    Frame frame = frame_of(balls);
+    Shot frame = frame_of(balls);
     frame.time = 0.8125;
     frame.cycles = 16.25;
     frame.phase = 0.25;
@@ -126,8 +127,8 @@ Frame bed() {
 }
 
 // The bed `time` (s) before.
-Frame earlier(double time) {
-    Frame frame = bed();
+Shot earlier(double time) {
+    Shot frame = bed();
     frame.time -= time;
     for (std::size_t i = 0; i < frame.size(); ++i) frame.position[i] -= time * frame.velocity[i];
     return frame;
@@ -232,7 +233,7 @@ TEST(GoldenContainers, BoxAndCylinder) {
         scene.container.half_width = 0.05;
         scene.container.height = 0.1;
         scene.container.depth = 0.06;
-        const Frame frame =
+        const Shot frame =
             frame_of({{{0, 0, 0.03}, 0.03, 1}, {{0, 0.035, 0.01}, 0.01, 0}, {{0.02, -0.03, 0.02}, 0.008, 0}});
         expect_golden(name, Renderer(scene, 1).draw(frame, ""));
     }
@@ -250,13 +251,13 @@ TEST(GoldenContainers, GrainsThroughWalls) {
     chute.point = Vec3(0, 0, 0.03);
     chute.normal = Vec3(0, 0.4, 1).normalized();
     scene.walls = {chute};
-    const Frame frame = frame_of({{{0, 0, 0.03}, 0.012, 1},
-                                  {{0.01, 0.03, 0.012}, 0.008, 0},
-                                  {{0.03, 0.02, 0.05}, 0.012, 1},
-                                  {{0, 0.05, 0.06}, 0.01, 0},
-                                  {{-0.01, -0.05, 0.05}, 0.012, 1},
-                                  {{0, -0.065, 0.02}, 0.008, 0},
-                                  {{0, 0.03, -0.012}, 0.008, 1}});
+    const Shot frame = frame_of({{{0, 0, 0.03}, 0.012, 1},
+                                 {{0.01, 0.03, 0.012}, 0.008, 0},
+                                 {{0.03, 0.02, 0.05}, 0.012, 1},
+                                 {{0, 0.05, 0.06}, 0.01, 0},
+                                 {{-0.01, -0.05, 0.05}, 0.012, 1},
+                                 {{0, -0.065, 0.02}, 0.008, 0},
+                                 {{0, 0.03, -0.012}, 0.008, 1}});
     expect_golden("through_walls", Renderer(scene, 1).draw(frame, ""));
     scene.film.width = 1440, scene.film.height = 810;
     if (const char* at = std::getenv("GRAINREEL_LOOK")) write(at, Renderer(scene, 1).draw(frame, ""));
@@ -264,8 +265,8 @@ TEST(GoldenContainers, GrainsThroughWalls) {
 
 TEST(GoldenExposure, Streaks) {
     const FilmedScene scene = scene_for([](Film&) {});
-    Frame frame = bed();
-    for (int k = 5; k > 0; --k) frame.exposed.push_back(std::make_shared<const Frame>(earlier(0.005 * k)));
+    Shot frame = bed();
+    for (int k = 5; k > 0; --k) frame.exposed.push_back(std::make_shared<const Shot>(earlier(0.005 * k)));
     expect_golden("exposure", Renderer(scene, 2).draw(frame, "exposed for 0.03 s"));
 }
 
@@ -281,7 +282,7 @@ TEST(GoldenSideBySide, TwoPanels) {
     film.height = 360;
     film.title = "Together";
     SideBySide drawing(panels, film, 1, gl::Provider::automatic);
-    const auto frame = std::make_shared<const Frame>(bed());
+    const auto frame = std::make_shared<const Shot>(bed());
     expect_golden("side_by_side", drawing.draw({frame, frame}));
 }
 

@@ -8,6 +8,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/scene/bed.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/marks/marks.hpp"
 #include "render/picture/plots/plot.hpp"
@@ -26,10 +27,10 @@ FilmedScene with_plot(int width, int height) {
 }
 
 // A frame with all rows of a table that has times and one column.
-Frame frame_with_rows(const std::vector<std::array<double, 2>>& rows) {
+Shot frame_with_rows(const std::vector<std::array<double, 2>>& rows) {
     const auto table = std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "lacey"});
     for (const auto& [time, value] : rows) table->add({time, value});
-    Frame frame = frame_of({});
+    Shot frame = frame_of({});
     frame.measures = table;
     frame.measure_rows = rows.size();
     return frame;
@@ -195,7 +196,7 @@ TEST(Plots, MeansOfAPeriodHaveNoSwing) {
     const auto table = std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "cycles", "lacey"});
     const double none = std::numeric_limits<double>::quiet_NaN();
     for (int k = 0; k <= 40; ++k) table->add({0.25 * k, 0.25 * k, k == 31 ? none : k % 2 == 0 ? 2 : 0});
-    Frame frame = frame_of({});
+    Shot frame = frame_of({});
     frame.measures = table;
     const auto now = [&](std::size_t rows) {
         frame.measure_rows = rows;
@@ -285,7 +286,7 @@ TEST(Arrows, PointTheirWay) {
     set_species(scene, {{"small", 3, 2e-4, blue}});
     scene.film.camera.field_of_view = 0;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
-    Frame frame = frame_of({{{0, 0, 0.07}, 1e-4, 0}, {{0, 0, 0.075}, 1e-4, 0}, {{0, 0, 0.08}, 1e-4, 0}});
+    Shot frame = frame_of({{{0, 0, 0.07}, 1e-4, 0}, {{0, 0, 0.075}, 1e-4, 0}, {{0, 0, 0.08}, 1e-4, 0}});
     Renderer renderer(scene, 1);
     const Picture still = renderer.draw(frame, "");
     frame.velocity.assign(3, Vec3(0, 0.05, 0));
@@ -321,7 +322,7 @@ TEST(HiddenSpecies, LeaveThePictureAsIfTheyWereNotThere) {
 // Two frames of a bed with everything that leaves marks. The first grain is in the middle of all.
 struct MarkedBed {
     FilmedScene scene = wedge(480, 270);
-    std::vector<Frame> frames;
+    std::vector<Shot> frames;
 
     MarkedBed() {
         std::vector<Ball> balls;
@@ -339,7 +340,7 @@ struct MarkedBed {
         shows.highlighted = {3, 17, 60, 90};
         shows.highlight_if = {GrainValue::speed, true, 0.09, "speed"};
         for (const double time : {0.0, 0.1}) {
-            Frame frame = frame_of(balls);
+            Shot frame = frame_of(balls);
             frame.time = time;
             for (std::size_t i = 0; i < frame.size(); ++i) {
                 frame.velocity[i] = {0.02, 0.1 * std::sin(static_cast<double>(i)), 0.05};
@@ -349,17 +350,17 @@ struct MarkedBed {
             frames.push_back(frame);
         }
     }
-    Picture picture(const std::vector<Frame>& of) const {
+    Picture picture(const std::vector<Shot>& of) const {
         Renderer renderer(scene, 1);
         renderer.draw(of[0], "");
         return renderer.draw(of[1], "");
     }
     // Removes from both frames the grains for which `gone` is true.
     template <class Gone>
-    std::vector<Frame> without(const Gone& gone) const {
-        std::vector<Frame> kept;
-        for (const Frame& all : frames) {
-            Frame frame = all;
+    std::vector<Shot> without(const Gone& gone) const {
+        std::vector<Shot> kept;
+        for (const Shot& all : frames) {
+            Shot frame = all;
             frame.id.clear(), frame.species.clear(), frame.radius.clear();
             frame.position.clear(), frame.velocity.clear(), frame.spin.clear();
             for (std::size_t i = 0; i < all.size(); ++i) {
@@ -383,27 +384,26 @@ TEST(MarksOfGrainsThatAreGone, GoWithThem) {
     MarkedBed bed;
     const Rectangle all{0, 0, bed.scene.film.width, bed.scene.film.height};
     const auto expect_none = [&](const char* what, const auto& gone) {
-        const std::vector<Frame> left = bed.without(gone);
+        const std::vector<Shot> left = bed.without(gone);
         ASSERT_GT(left[1].size(), 20u);
         ASSERT_LT(left[1].size(), 180u);
         EXPECT_EQ(changed(bed.picture(bed.frames), bed.picture(left), all, 1).count, 0) << what;
     };
     bed.scene.film.look.cut = {true, {1, 0, 0}, 0.002, 0};
-    expect_none("cut",
-                [](const Frame& f, std::size_t i) { return f.position[i].x() - f.radius[i] >= 0.002; });
+    expect_none("cut", [](const Shot& f, std::size_t i) { return f.position[i].x() - f.radius[i] >= 0.002; });
     bed.scene.film.look.cut = {true, {1, 0, 0}, 0.002, 0.006};
-    expect_none("slab", [](const Frame& f, std::size_t i) {
+    expect_none("slab", [](const Shot& f, std::size_t i) {
         return f.position[i].x() - f.radius[i] >= 0.002 || f.position[i].x() + f.radius[i] <= -0.004;
     });
     bed.scene.film.look.cut = {};
     bed.scene.film.shows.hidden = {1};
-    expect_none("hide", [](const Frame& f, std::size_t i) { return f.species[i] == 1; });
+    expect_none("hide", [](const Shot& f, std::size_t i) { return f.species[i] == 1; });
 }
 
 TEST(Rings, GoAroundTheirGrain) {
     FilmedScene scene = wedge(960, 540);
     scene.film.camera.field_of_view = 0;
-    const Frame frame = frame_of({{{0, -0.02, 0.08}, 0.008, 0}, {{0, 0.02, 0.1}, 0.004, 1}});
+    const Shot frame = frame_of({{{0, -0.02, 0.08}, 0.008, 0}, {{0, 0.02, 0.1}, 0.004, 1}});
     const Picture plain = Renderer(scene, 1).draw(frame, "");
     scene.film.shows.highlighted = {1};
     const Picture ringed = Renderer(scene, 1).draw(frame, "");
@@ -418,7 +418,7 @@ TEST(Rings, GoAroundTheirGrain) {
 
 TEST(Rings, GoAroundThoseThatMeetTheCondition) {
     FilmedScene scene = wedge(960, 540);
-    Frame frame =
+    Shot frame =
         frame_of({{{0, -0.02, 0.08}, 0.008, 0}, {{0, 0.02, 0.1}, 0.004, 1}, {{0, 0, 0.12}, 0.005, 1}});
     frame.velocity = {{0, 0, 0.1}, {0, 0.3, 0}, {0, 0, -0.19}};
     for (const auto& [above, ids] : {std::pair{true, std::vector<std::int32_t>{1}}, {false, {0, 2}}}) {
@@ -438,7 +438,7 @@ TEST(Rings, OfAConditionGoAroundGrainsThatAreSeen) {
     scene.film.words = WordPlace::none;
     scene.film.camera.azimuth = scene.film.camera.elevation = 0;
     // One grain is behind a larger one, and one is beside it.
-    Frame frame =
+    Shot frame =
         frame_of({{{0.01, 0, 0.08}, 0.008, 0}, {{-0.01, 0, 0.08}, 0.004, 1}, {{0, 0.03, 0.08}, 0.004, 1}});
     frame.velocity = {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}};
     const View view = frame_container(scene, bare_layout(scene.film));
@@ -461,7 +461,7 @@ TEST(TrailsOfGrains, AreThePositionsOfTheLastFrames) {
     scene.film.shows.trails = {{}, {1}, 0.25};
     Trails trails(scene);
     const auto frame_at = [](int k) {
-        Frame frame = frame_of({{{0, 0, 0}}, {{0, 0.001 * k, 0.1}}});
+        Shot frame = frame_of({{{0, 0, 0}}, {{0, 0.001 * k, 0.1}}});
         frame.time = 0.1 * k;
         return frame;
     };

@@ -17,6 +17,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/measures.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/gl/opengl.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/film.hpp"
@@ -25,7 +26,7 @@
 namespace grainreel::test {
 namespace {
 
-Frame scattered(int count) {
+Shot scattered(int count) {
     std::mt19937 random(7);
     const auto between = [&](double a, double b) {
         return a + (b - a) * static_cast<double>(random()) / 4294967296.0;
@@ -35,7 +36,7 @@ Frame scattered(int count) {
         balls.push_back({{between(-0.015, 0.015), between(-0.04, 0.04), between(0.01, 0.12)},
                          i % 9 ? 0.0025 : 0.005,
                          i % 9 ? 0 : 1});
-    Frame frame = frame_of(balls);
+    Shot frame = frame_of(balls);
     frame.time = 3.2625;
     frame.cycles = 65.25;
     frame.phase = 0.25;
@@ -44,7 +45,7 @@ Frame scattered(int count) {
 
 TEST(Pictures, TheSameFrameTwiceIsTheSamePicture) {
     Renderer renderer(wedge(), 1);
-    const Frame frame = scattered(500);
+    const Shot frame = scattered(500);
     const Picture first = renderer.draw(frame, "slow motion 1/10");
     renderer.draw(frame_of({{{0, 0, 0.1}, 0.02, 1}}), "something else");
     EXPECT_EQ(renderer.draw(frame, "slow motion 1/10").rgba, first.rgba);
@@ -56,7 +57,7 @@ TEST(Pictures, AStillSceneIsThirtyTimesTheSamePicture) {
     FilmedScene scene = wedge();
     scene.film.look.ground = true;
     Renderer renderer(scene, 2);
-    Frame frame = scattered(800);
+    Shot frame = scattered(800);
     const Picture first = renderer.draw(frame, "");
     for (int again = 0; again < 30; ++again) ASSERT_EQ(renderer.draw(frame, "").rgba, first.rgba) << again;
 }
@@ -65,16 +66,16 @@ TEST(Pictures, AStillSceneIsThirtyTimesTheSamePicture) {
 TEST(Pictures, WhatMovesLeavesNothingBehind) {
     FilmedScene scene = wedge();
     scene.film.look.ground = true;
-    const Frame full = scattered(800), empty = frame_of({});
-    std::vector<Frame> frames;
+    const Shot full = scattered(800), empty = frame_of({});
+    std::vector<Shot> frames;
     for (const double offset : {0.0, 0.03, 0.03, -0.01, 0.0})
-        for (const Frame* grains : {&full, &empty}) {
+        for (const Shot* grains : {&full, &empty}) {
             frames.push_back(*grains);
             frames.back().container().place = {0, 0, offset};
             frames.back().floor().place = {0, 0.5 * offset, 0.2 * offset};
         }
     std::vector<Picture> alone;
-    for (const Frame& frame : frames) alone.push_back(Renderer(scene, 1).draw(frame, ""));
+    for (const Shot& frame : frames) alone.push_back(Renderer(scene, 1).draw(frame, ""));
     Renderer renderer(scene, 1);
     for (std::size_t i = 0; i < frames.size(); ++i)
         EXPECT_EQ(changed(alone[i], renderer.draw(frames[i], ""), renderer.view().port).count, 0) << i;
@@ -87,7 +88,7 @@ TEST(Pictures, AreAlikeOutsideOfWhatMoves) {
     Renderer renderer(scene, 1);
     std::array<Picture, 3> ring;
     for (std::size_t i = 0; i < 9; ++i) {
-        Frame frame = scattered(100 + 50 * static_cast<int>(i));
+        Shot frame = scattered(100 + 50 * static_cast<int>(i));
         frame.time += 0.013 * static_cast<double>(i);
         frame.phase = 0.1 * static_cast<double>(i);
         const std::string playback = i / 2 % 2 ? "slow motion" : "";
@@ -110,7 +111,7 @@ TEST(Pictures, AreAlikeOutsideOfWhatMoves) {
 TEST(Pictures, TransparentOnesHaveTheRightAlphaAlongEveryEdge) {
     FilmedScene scene = wedge();
     scene.container.shape = Container::Shape::none;
-    const Frame frame = scattered(300);
+    const Shot frame = scattered(300);
     const PictureLayout layout = bare_layout(scene.film);
     scene.film.transparent = true;
     const Picture clear = Renderer(scene, layout, 1, gl::Provider::automatic).draw(frame, "");
@@ -178,7 +179,7 @@ TEST(Pictures, WordsAndGrainsKeepApart) {
         const FilmedScene scene = wedge(width, height);
         const PictureLayout layout = plan_layout(scene);
         Renderer renderer(scene, 1);
-        Frame frame = frame_of({});
+        Shot frame = frame_of({});
         const Picture empty = renderer.draw(frame, "caption");
         // Grains lie everywhere, also far outside the container; the gutters do not change.
         frame = frame_of({{{0, 0, 0.1}, 0.05, 1},
@@ -252,7 +253,7 @@ TEST(Overlay, PlatesLeaveTheRestOfThePicture) {
     const PictureLayout layout = plan_layout(scene);
     EXPECT_TRUE(layout.plates);
     EXPECT_EQ(layout.port.width, scene.film.width);
-    const Frame frame =
+    const Shot frame =
         frame_of({{{0, 0, 0.06}, 0.02, 0}, {{0, 0.04, 0.09}, 0.03, 1}, {{0, -0.04, 0.05}, 0.03, 1}});
     Renderer renderer(scene, 1);
     const Picture first = renderer.draw(frame, "caption");
@@ -309,7 +310,7 @@ TEST(Pictures, NoWordIsCutOff) {
         const auto table =
             std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "lacey", "kinetic"});
         for (int row = 0; row < 40; ++row) table->add({0.02 * row, 0.3 + 0.01 * row, 0.001 * row});
-        Frame frame = frame_of({{{0, 0, 0.08}, 0.01, 0}});
+        Shot frame = frame_of({{{0, 0, 0.08}, 0.01, 0}});
         frame.measures = table;
         frame.measure_rows = 40;
         const PictureLayout layout = plan_layout(scene);
@@ -371,7 +372,7 @@ TEST(Overlay, LettersAreLargeEnough) {
 }
 
 TEST(Overlay, SettlingIsSaid) {
-    Frame frame;
+    Shot frame;
     frame.time = -0.2;
     EXPECT_EQ(playback_text(Film(), frame, "slow motion 1/10"), "settling, drive off; slow motion 1/10");
     EXPECT_EQ(playback_text(Film(), frame, ""), "settling, drive off");
@@ -383,7 +384,7 @@ TEST(Overlay, AHairBeforeAPeriodIsThatPeriod) {
     const FilmedScene scene = wedge();
     const PictureLayout layout = plan_layout(scene);
     Renderer renderer(scene, 1);
-    Frame frame = frame_of({});
+    Shot frame = frame_of({});
     frame.time = 2;
     frame.cycles = 20;
     const Picture whole = renderer.draw(frame, "");
@@ -396,7 +397,7 @@ TEST(Overlay, AHairBeforeAPeriodIsThatPeriod) {
 }
 
 TEST(Overlay, CycleAndPhaseAgree) {
-    Frame frame;
+    Shot frame;
     for (const double start : {0.0, 0.25})
         for (int n = 0; n < 4000; ++n) {
             frame.cycles = n / 1000.0;
@@ -433,7 +434,7 @@ TEST(Overlay, TheDialShowsWhereTheFloorIs) {
     FilmedScene scene = wedge(1280, 720);
     const double a = scene.drive.amplitude, radius = 2.2 * type_scale(scene.film).main;
     const auto row = [&](double phase, double offset) {
-        Frame frame = frame_of({});
+        Shot frame = frame_of({});
         frame.phase = phase;
         frame.floor().place = offset * scene.drive.direction;
         return floor_dot_row(scene, Renderer(scene, 1).draw(frame, ""));

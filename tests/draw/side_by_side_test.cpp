@@ -1,5 +1,6 @@
 // Tests of several scenes in one picture: their scales and places, and words that stand only once.
 #include "render/picture/panels/side_by_side.hpp"
+#include "render/picture/base/shot.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,8 +43,8 @@ Film film_of(int width, int height) {
     return film;
 }
 
-FramePtr one_ball(double radius) {
-    return std::make_shared<const Frame>(frame_of({{Vec3(0, 0, 0.08), radius, 1}}));
+ShotPtr one_ball(double radius) {
+    return std::make_shared<const Shot>(frame_of({{Vec3(0, 0, 0.08), radius, 1}}));
 }
 
 bool inside(const Rectangle& inner, const Rectangle& outer) {
@@ -101,12 +102,12 @@ TEST(SideBySide, LiveWordsAreThoseOfTheirPanel) {
     }
     SideBySide drawing(panels_of(scenes), film_of(960, 540), 1, gl::Provider::automatic);
     const auto with_mixing = [](double lacey) {
-        Frame frame = frame_of({{Vec3(0, 0, 0.08), 0.01, 1}});
+        Shot frame = frame_of({{Vec3(0, 0, 0.08), 0.01, 1}});
         const auto table = std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "lacey"});
         table->add({0, lacey});
         frame.measures = table;
         frame.measure_rows = 1;
-        return std::make_shared<const Frame>(std::move(frame));
+        return std::make_shared<const Shot>(std::move(frame));
     };
     const Picture before = drawing.draw({with_mixing(0.25), with_mixing(0.5)});
     const Picture after = drawing.draw({with_mixing(0.25), with_mixing(0.75)});
@@ -117,13 +118,13 @@ TEST(SideBySide, LiveWordsAreThoseOfTheirPanel) {
               changed(before, after, places[1].note, 1).count);
 }
 
-FramePtr with_rows(const std::vector<double>& values) {
-    Frame frame = frame_of({{Vec3(0, 0, 0.08), 0.01, 1}});
+ShotPtr with_rows(const std::vector<double>& values) {
+    Shot frame = frame_of({{Vec3(0, 0, 0.08), 0.01, 1}});
     const auto table = std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "lacey"});
     for (std::size_t i = 0; i < values.size(); ++i) table->add({0.1 * static_cast<double>(i), values[i]});
     frame.measures = table;
     frame.measure_rows = values.size();
-    return std::make_shared<const Frame>(std::move(frame));
+    return std::make_shared<const Shot>(std::move(frame));
 }
 
 std::vector<Panel> plotted_panels() {
@@ -175,12 +176,12 @@ TEST(SideBySide, CaptionsOfAllStandOnce) {
     const double below = layout_of(panels, film_of(960, 540)).bottom.height;
     SideBySide once(panels, film_of(960, 540), 1, gl::Provider::automatic);
     EXPECT_EQ(once.layout().places[0].note.height, 0);
-    const FramePtr now = one_ball(0.01);
-    Frame later = *now;
+    const ShotPtr now = one_ball(0.01);
+    Shot later = *now;
     later.time = 2;
     const Picture with = once.draw({now, now});
     const Picture without =
-        once.draw({std::make_shared<const Frame>(later), std::make_shared<const Frame>(later)});
+        once.draw({std::make_shared<const Shot>(later), std::make_shared<const Shot>(later)});
     const Rectangle bottom = once.layout().bottom;
     const Rectangle row{bottom.x, bottom.y, bottom.width, bottom.height / 3};
     EXPECT_GT(changed(with, without, row, 60).count, 50);
@@ -228,7 +229,7 @@ TEST(SideBySide, TimeIsSaidOverEachPanelWhereItIsUnlike) {
     SideBySide alike(panels, film_of(960, 540), 1, gl::Provider::automatic);
     panels[1].playback[1] = "on average 1 frame every 1.25 periods, at phase 0 (plays 1.5×)";
     SideBySide unlike(panels, film_of(960, 540), 1, gl::Provider::automatic);
-    const std::vector<FramePtr> frames = {one_ball(0.01), one_ball(0.01)};
+    const std::vector<ShotPtr> frames = {one_ball(0.01), one_ball(0.01)};
     const Picture first = alike.draw(frames, 0), then = alike.draw(frames, 1);
     EXPECT_EQ(changed(first, then, alike.layout().bottom, 1).count,
               changed(first, then, {0, 0, 960, 540}, 1).count);
@@ -336,9 +337,9 @@ TEST(SideBySide, ContainersTooUnlikeHaveAScaleEach) {
 TEST(SideBySide, TheClockIsThatOfItsPanel) {
     const std::vector<Panel> panels = panels_of({scene_with(0.06, 2), scene_with(0.06, 3)});
     SideBySide picture(panels, film_of(640, 360), 1, gl::Provider::automatic);
-    Frame later = *one_ball(0.01);
+    Shot later = *one_ball(0.01);
     later.time = 0.5;
-    const FramePtr now = one_ball(0.01), then = std::make_shared<const Frame>(later);
+    const ShotPtr now = one_ball(0.01), then = std::make_shared<const Shot>(later);
     const Picture first = picture.draw({now, then}, 0, 0), same = picture.draw({now, now}, 0, 0),
                   second = picture.draw({now, then}, 0, 1);
     const Rectangle& words = picture.layout().bottom;

@@ -3,6 +3,7 @@
 
 #include "engine/measure/measures.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 #include "render/picture/words/blocks.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -19,10 +20,10 @@ FilmedScene scene_of(bool transparent) {
     return scene;
 }
 
-Frame half_way() {
+Shot half_way() {
     const auto table = std::make_shared<MeasureTable>(std::vector<std::string>{"time_s", "lacey"});
     for (int row = 0; row < 40; ++row) table->add({0.02 * row, 0.5 + 0.4 * std::sin(0.1 * row)});
-    Frame frame = frame_of({{{0, 0, 0.08}, 0.01, 1}});
+    Shot frame = frame_of({{{0, 0, 0.08}, 0.01, 1}});
     frame.time = 0.8;
     frame.measures = table;
     frame.measure_rows = 40;

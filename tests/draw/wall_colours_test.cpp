@@ -10,6 +10,7 @@
 #include "engine/mesh/load_mesh.hpp"
 #include "engine/mesh/surface.hpp"
 #include "render/picture/base/colour_scale.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/picture/plots/axes.hpp"
@@ -47,8 +48,8 @@ struct Plate {
         const auto t = static_cast<std::int32_t>(k);
         return (surface.corner(t, 0) + surface.corner(t, 1) + surface.corner(t, 2)) / 3;
     }
-    Frame frame(const std::vector<double>& pressure, const std::vector<double>& wear) const {
-        Frame frame = frame_of({{{0, 0, 0.2}, 0.001, 0}});
+    Shot frame(const std::vector<double>& pressure, const std::vector<double>& wear) const {
+        Shot frame = frame_of({{{0, 0, 0.2}, 0.001, 0}});
         frame.worn = std::make_shared<const std::vector<MeshWear>>(std::vector<MeshWear>{{pressure, wear}});
         return frame;
     }

@@ -1,4 +1,5 @@
 // Tests of arrows that show forces on walls.
+#include "render/picture/base/shot.hpp"
 #include "render/picture/marks/force_marks.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,7 @@ Extent arrow_of(const FilmedScene& scene, const std::string& wall, const Vec3& f
     const auto table = std::make_shared<MeasureTable>(columns);
     const Vec3 moment = (acts - about).cross(force);
     table->add({0, force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z()});
-    Frame frame = frame_of({});
+    Shot frame = frame_of({});
     frame.container() = frame.floor() = pose;
     frame.measures = table;
     frame.measure_rows = 1;
@@ -113,7 +114,7 @@ TEST(WallForces, ArrowEndsWhereTheForceActs) {
     const Vec3 force(0, 0, -2), acts(0, 0.012, 0), moved(0, 0, 0.003);
     const Vec3 moment = acts.cross(force);
     table->add({0, force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z()});
-    Frame frame = frame_of({});
+    Shot frame = frame_of({});
     frame.container().place = frame.floor().place = moved;
     const View view = view_of(scene);
     const auto drawn = [&](std::size_t rows) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/picture/base/shot.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/panels/side_by_side.hpp"
@@ -38,8 +39,8 @@ FilmedScene with_all_words(int width, int height) {
     return scene;
 }
 
-Frame flowing() {
-    Frame frame = frame_of({{Vec3(0, 0, 0.02)}});
+Shot flowing() {
+    Shot frame = frame_of({{Vec3(0, 0, 0.02)}});
     frame.time = 1.25;
     frame.cycles = 25.25;
     frame.phase = 0.25;
@@ -123,7 +124,7 @@ TEST(WordsShown, AnEmptyTitleIsNone) {
 
 TEST(WordsShown, TextsFollow) {
     FilmedScene scene = with_all_words(640, 360);
-    const Frame frame = flowing();
+    const Shot frame = flowing();
     EXPECT_THAT(note_text(scene, frame), testing::HasSubstr("12 of 1620 out"));
     EXPECT_THAT(note_text(scene, frame), testing::HasSubstr("Words that stand"));
     scene.film.word_kinds.counts = false;

@@ -119,7 +119,7 @@ inline Picture noise(int width, int height, int number) {
 class PaintingDrawer final : public Drawer {
   public:
     explicit PaintingDrawer(std::function<Picture(const Frame&)> paint) : paint_(std::move(paint)) {}
-    void draw(const Frames& frames, const std::string&, Picture& into) override {
+    void draw(const Shots& frames, const std::string&, Picture& into) override {
         into = paint_(*frames.front());
     }
     std::string description() const override { return "painted"; }

@@ -50,7 +50,7 @@ FilmedScene scene_with(const Film& film) {
     return scene;
 }
 
-std::vector<Shot> schedule_of(const Film& film, const Clock& clock, std::int64_t steps) {
+std::vector<Due> schedule_of(const Film& film, const Clock& clock, std::int64_t steps) {
     return film_schedule(scene_with(film), clock, steps);
 }
 
@@ -69,7 +69,7 @@ TEST(FilmSchedule, MotionTakesTheStepNearestToEachFramesTime) {
     const Clock clock{7e-5, 0, 0};  // there is no drive, and the frame interval is no whole number of steps
     const std::int64_t steps = 20'000;
     const double playback = 0.3, rate = 25;
-    const std::vector<Shot> shots = schedule_of(film_of({motion({}, playback)}, rate), clock, steps);
+    const std::vector<Due> shots = schedule_of(film_of({motion({}, playback)}, rate), clock, steps);
     const auto count = static_cast<std::size_t>(std::floor(clock.time(steps) * rate / playback)) + 1;
     ASSERT_THAT(shots, SizeIs(count));
     for (std::size_t k = 0; k < count; ++k) {
@@ -93,7 +93,7 @@ Drive changing_drive() {
 TEST(FilmSchedule, LockedFollowsTheStageThatIsOn) {
     const Clock clock = changing_clock(changing_drive());
     const Film film = film_of({locked(0.5, 1, 0.25), locked({}, 2, 0.75)});
-    const std::vector<Shot> shots = schedule_of(film, clock, 80'000);  // 2 s
+    const std::vector<Due> shots = schedule_of(film, clock, 80'000);  // 2 s
     ASSERT_GT(shots.size(), 10u);
     for (std::size_t k = 0; k < shots.size(); ++k) {
         const bool first = shots[k].segment == 0;
@@ -120,7 +120,7 @@ TEST(AveragedSteps, GoBackByPeriodsOfTheStagesThatWereOn) {
 
 TEST(FilmSchedule, WithoutSegmentsTheFilmIsInRealTime) {
     const Clock clock{1e-4, 0, 0};
-    const std::vector<Shot> shots = schedule_of(film_of({}), clock, 20'000);
+    const std::vector<Due> shots = schedule_of(film_of({}), clock, 20'000);
     ASSERT_THAT(shots, SizeIs(2 * 30 + 1));
     EXPECT_EQ(shots.front().step, 0);
     EXPECT_EQ(shots.back().step, 20'000);
@@ -131,7 +131,7 @@ TEST(FilmSchedule, LockedShotsHaveTheAskedPhaseOfTheDriveExactly) {
         for (const int every : {1, 2, 4}) {
             const Clock clock = clock_of(20, 1600, initial);
             const double phase = 0.375;
-            const std::vector<Shot> shots =
+            const std::vector<Due> shots =
                 schedule_of(film_of({locked({}, every, phase)}), clock, 100 * 1600 - 1);
             ASSERT_THAT(shots, SizeIs(static_cast<std::size_t>(100 / every)));
             EXPECT_LT(shots.front().step, 1600);
@@ -154,7 +154,7 @@ TEST(FilmSchedule, ALockedPhaseIsRoundedToAWholeStep) {
 TEST(FilmSchedule, SegmentsFollowEachOtherAndTheOpenOneTakesTheRest) {
     const Clock clock = clock_of(20, 1000);
     const std::int64_t steps = 10 * 20 * 1000;
-    const std::vector<Shot> shots =
+    const std::vector<Due> shots =
         schedule_of(film_of({motion(0.5, 0.1), locked({}, 2, 0.25), motion(1.0, 0.2)}), clock, steps);
     std::vector<std::vector<double>> times(3);
     for (std::size_t i = 0; i < shots.size(); ++i) {
@@ -176,7 +176,7 @@ TEST(FilmSchedule, SegmentsFollowEachOtherAndTheOpenOneTakesTheRest) {
 
 TEST(FilmSchedule, NothingIsTakenBeyondTheRun) {
     const Clock clock = clock_of(20, 1000);
-    const std::vector<Shot> shots =
+    const std::vector<Due> shots =
         schedule_of(film_of({motion(1.0, 1), locked(5.0, 1, 0), motion({}, 0.1)}), clock, 50'000);
     ASSERT_FALSE(shots.empty());
     EXPECT_LE(shots.back().step, 50'000);
@@ -185,7 +185,7 @@ TEST(FilmSchedule, NothingIsTakenBeyondTheRun) {
 
 TEST(FilmSchedule, SlowerThanTheStepsStillRisesStrictly) {
     const Clock clock{1e-3, 0, 0};
-    const std::vector<Shot> shots = schedule_of(film_of({motion({}, 0.01)}), clock, 10);
+    const std::vector<Due> shots = schedule_of(film_of({motion({}, 0.01)}), clock, 10);
     ASSERT_THAT(shots, SizeIs(11));
     for (std::size_t k = 0; k < shots.size(); ++k) EXPECT_EQ(shots[k].step, static_cast<std::int64_t>(k));
 }
@@ -206,7 +206,7 @@ TEST(FilmSchedule, IsCountedAsItIsMade) {
 }
 
 TEST(FilmSchedule, AnEndlessPlaybackShowsTheStartAlone) {
-    const std::vector<Shot> shots = schedule_of(film_of({motion({}, 1e300)}), clock_of(20, 1000), 50'000);
+    const std::vector<Due> shots = schedule_of(film_of({motion({}, 1e300)}), clock_of(20, 1000), 50'000);
     ASSERT_THAT(shots, SizeIs(1));
     EXPECT_EQ(shots[0].step, 0);
 }
@@ -309,8 +309,8 @@ TEST(PlaybackCaption, SaysWhatIsPlayedWhereStepsAreCoarser) {
 
 TEST(Timeline, LockedInstantsFindThePhaseOfTheStageThatIsOn) {
     const Clock clock = changing_clock(changing_drive());
-    const std::vector<Shot> shots = shots_at({{0.41, 0}, {1.507, 0}}, {locked({}, 1, 0.25)}, clock, 80'000);
-    for (const Shot& shot : shots) EXPECT_NEAR(clock.phase(shot.step), 0.25, 0.5 / 1212);
+    const std::vector<Due> shots = shots_at({{0.41, 0}, {1.507, 0}}, {locked({}, 1, 0.25)}, clock, 80'000);
+    for (const Due& shot : shots) EXPECT_NEAR(clock.phase(shot.step), 0.25, 0.5 / 1212);
     EXPECT_LE(std::abs(clock.time(shots[1].step) - 1.507), 0.5 / 33 + clock.step);
 }
 

@@ -47,8 +47,8 @@ TEST(Timeline, OneFrequencyShowsOnePhaseAndCycle) {
     const Clock a = clock_of(20, 800), b = clock_of(20, 1360);  // each has steps of its own
     const std::vector<Instant> instants = instants_of(scene_with(film), a, 8000);
     ASSERT_EQ(instants.size(), 10u);
-    const std::vector<Shot> of_a = shots_at(instants, film.segments, a, 8000);
-    const std::vector<Shot> of_b = shots_at(instants, film.segments, b, 13600);
+    const std::vector<Due> of_a = shots_at(instants, film.segments, a, 8000);
+    const std::vector<Due> of_b = shots_at(instants, film.segments, b, 13600);
     for (std::size_t i = 0; i < instants.size(); ++i) {
         EXPECT_NEAR(a.cycles(of_a[i].step), 0.25 + static_cast<double>(i), 1e-12);
         EXPECT_NEAR(b.cycles(of_b[i].step), 0.25 + static_cast<double>(i), 1e-12);
@@ -62,7 +62,7 @@ TEST(Timeline, OtherFrequenciesKeepTheirPhase) {
     const Clock reference = clock_of(7, 80), other = clock_of(11, 160, 0.125);
     const std::int64_t steps = 160 * 20;
     const std::vector<Instant> instants = instants_of(scene_with(film), reference, 80 * 12);
-    const std::vector<Shot> shots = shots_at(instants, film.segments, other, steps);
+    const std::vector<Due> shots = shots_at(instants, film.segments, other, steps);
     ASSERT_EQ(shots.size(), instants.size());
     for (std::size_t i = 0; i < shots.size(); ++i) {
         EXPECT_NEAR(other.phase(shots[i].step), 0.5, 1e-12);
@@ -80,7 +80,7 @@ TEST(Timeline, MotionTakesTheNearestStepAndNeverOneBeyondTheEnd) {
     const Clock undriven{0.0013, 0, 0};
     const std::vector<Instant> instants = instants_of(scene_with(film), clock_of(20, 80), 160);  // 0.1 s
     ASSERT_EQ(instants.size(), 4u);
-    const std::vector<Shot> shots = shots_at(instants, film.segments, undriven, 70);
+    const std::vector<Due> shots = shots_at(instants, film.segments, undriven, 70);
     for (std::size_t i = 0; i + 1 < shots.size(); ++i)
         EXPECT_LE(std::abs(undriven.time(shots[i].step) - instants[i].time), 0.5 * undriven.step + 1e-12);
     EXPECT_EQ(shots.back().step, 70);  // of 77

@@ -33,11 +33,7 @@ class MadeRun final : public FrameArchive {
     const World& world() const override { return world_; }
     FrameSupply supply() const override { return {}; }
     const std::vector<Frame>& moments() const override { return moments_; }
-    Frame grains(std::size_t index) const override {
-        Frame frame = frames_[index];
-        frame.touches.clear();
-        return frame;
-    }
+    Frame grains(std::size_t index) const override { return frames_[index]; }
 
   private:
     std::filesystem::path folder_;

@@ -14,6 +14,7 @@
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
+#include "engine/state/contact.hpp"
 
 namespace grainreel {
 

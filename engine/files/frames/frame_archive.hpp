@@ -19,6 +19,7 @@
 #include "engine/files/damage.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
+#include "engine/state/contact.hpp"
 
 namespace grainreel {
 

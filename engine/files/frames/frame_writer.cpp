@@ -128,13 +128,12 @@ Exported export_frames(const FrameArchive& frames, const std::string& format, co
     const std::unique_ptr<FrameWriter> writer = frame_writer(format, part.path());
     writer->begin(frames.world(), frames.supply());
     for (std::size_t k = 0; k < wanted.size(); ++k) {
-        Frame frame = frames.grains(wanted[k]);
-        if (std::optional<std::vector<Touch>> touches = frames.touches(wanted[k]))
-            frame.touches = std::move(*touches);
+        const Frame frame = frames.grains(wanted[k]);
+        const std::optional<std::vector<Touch>> touches = frames.touches(wanted[k]);
         if (writer->takes_all())
             if (const std::optional<std::vector<SavedContact>> all = frames.contacts(wanted[k]))
                 writer->contacts(*all);
-        writer->frame(frame);
+        writer->frame(frame, touches.value_or(std::vector<Touch>()));
         if (!watcher(static_cast<double>(k + 1) / static_cast<double>(wanted.size())))
             throw RunError("stopped while frames were written; nothing is left of them");
     }

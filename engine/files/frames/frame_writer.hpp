@@ -15,6 +15,7 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
+#include "engine/state/contact.hpp"
 
 namespace grainreel {
 
@@ -23,10 +24,11 @@ class FrameWriter {
     virtual ~FrameWriter() = default;
 
     // The caller calls begin() once, then frame() by rising time, then end() once. `supply` says what each
-    // frame will have beside its places. All three throw RunError when the file cannot be written. Frames
-    // that are whole by then stay readable.
+    // frame will have beside its places. touches: which bodies push each other; empty where that is not
+    // known. All three throw RunError when the file cannot be written. Frames that are whole by then stay
+    // readable.
     virtual void begin(const World& world, const FrameSupply& supply) = 0;
-    virtual void frame(const Frame& frame) = 0;
+    virtual void frame(const Frame& frame, const std::vector<Touch>& touches) = 0;
     virtual void end() = 0;
 
     // Whether the format also has contacts and fields, so that the next two functions are called.

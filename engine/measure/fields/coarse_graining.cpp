@@ -18,7 +18,7 @@ constexpr std::size_t contact_width = 9;
 // Mass, momentum and the products m v v of one grain.
 std::array<double, motion_width> motion_of(const FieldGrain& grain) {
     std::array<double, motion_width> all{grain.mass};
-    for (int a = 0; a < 3; ++a) all[static_cast<std::size_t>(1 + a)] = grain.mass * grain.velocity[a];
+    for (int a = 0; a < 3; ++a) all[1 + a] = grain.mass * grain.velocity[a];
     for (std::size_t c = 0; c < upper.size(); ++c)
         all[4 + c] = grain.mass * grain.velocity[upper[c][0]] * grain.velocity[upper[c][1]];
     return all;
@@ -28,7 +28,7 @@ std::array<double, motion_width> motion_of(const FieldGrain& grain) {
 std::array<double, contact_width> product_of(const Vec3& force, const Vec3& branch) {
     std::array<double, contact_width> all{};
     for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b) all[static_cast<std::size_t>(3 * a + b)] = force[a] * branch[b];
+        for (int b = 0; b < 3; ++b) all[3 * a + b] = force[a] * branch[b];
     return all;
 }
 
@@ -65,13 +65,13 @@ void CoarseGraining::clear() {
 bool CoarseGraining::is_inside(const Vec3& place) const {
     std::array<std::int64_t, 3> at{};
     for (int k = 0; k < 3; ++k) {
-        const GridAxis& axis = grid_.axes[static_cast<std::size_t>(k)];
+        const GridAxis& axis = grid_.axes[k];
         if (!axis.resolved || axis.periodic) continue;
         const double cell = std::floor((place[k] - axis.low) / axis.cell);
         if (!(cell >= 0 && cell < static_cast<double>(axis.count))) return false;
-        at[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(cell);
+        at[k] = static_cast<std::int64_t>(cell);
     }
-    return shares_[static_cast<std::size_t>(grid_.index(at[0], at[1], at[2]))] > 0;
+    return shares_[grid_.index(at[0], at[1], at[2])] > 0;
 }
 
 void CoarseGraining::add_grain(const FieldGrain& grain, double* motion) {
@@ -80,12 +80,12 @@ void CoarseGraining::add_grain(const FieldGrain& grain, double* motion) {
     double inside = 0;
     for (const CellWeight& cell : cells) {
         add_to(motion + static_cast<std::size_t>(cell.cell) * motion_width, numbers, cell.weight);
-        inside += cell.weight * shares_[static_cast<std::size_t>(cell.cell)];
+        inside += cell.weight * shares_[cell.cell];
     }
     if (!is_inside(grain.position)) return;
     const double scale = 1 / (inside * grid_.cell_volume());
     for (const CellWeight& cell : cells) {
-        if (shares_[static_cast<std::size_t>(cell.cell)] <= 0) continue;
+        if (shares_[cell.cell] <= 0) continue;
         double* const solid = solid_.data() + static_cast<std::size_t>(cell.cell) * (1 + species_);
         solid[0] += scale * cell.weight * grain.mass;
         solid[1 + static_cast<std::size_t>(grain.species)] += scale * cell.weight * grain.volume;
@@ -93,7 +93,7 @@ void CoarseGraining::add_grain(const FieldGrain& grain, double* motion) {
 }
 
 void CoarseGraining::add(const FieldState& state, int phase) {
-    double* const motion = motion_.at(static_cast<std::size_t>(phase)).data();
+    double* const motion = motion_.at(phase).data();
     for (const FieldGrain& grain : state.grains) add_grain(grain, motion);
     for (const FieldContact& contact : state.contacts) add_contact(contact);
     ++moments_;

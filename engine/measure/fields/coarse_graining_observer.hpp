@@ -35,7 +35,7 @@ inline FieldGrain field_grain(const ObservedState& moment, std::size_t grain) {
     return {field_place(moment, grain),
             moment.grains.motion[grain].velocity - seen_from(moment).velocity,
             mass,
-            mass / moment.scene.species[static_cast<std::size_t>(species)].density,
+            mass / moment.scene.species[species].density,
             species,
             moment.grains.place[grain].radius};
 }
@@ -45,7 +45,7 @@ inline FieldContact field_contact(const ObservedState& moment, const ContactView
     const auto first = static_cast<std::size_t>(contact.first);
     const bool pair = contact.second >= 0;
     const double radius = moment.grains.place[first].radius;
-    const double other = pair ? moment.grains.place[static_cast<std::size_t>(contact.second)].radius : 0;
+    const double other = pair ? moment.grains.place[contact.second].radius : 0;
     return {field_place(moment, first), (radius - contact.overlap + other) * contact.normal,
             contact.normal_force * contact.normal + contact.tangential, radius, pair ? other : radius};
 }

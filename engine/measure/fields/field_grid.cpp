@@ -175,7 +175,7 @@ std::vector<double> inside_shares(const FieldGrid& grid, const Scene& scene) {
             for (const Face& face : faces) polygon = cut(polygon, face);
             const double upright = std::clamp(area(polygon) / (y.cell * z.cell), 0.0, 1.0);
             for (std::int64_t i = 0; i < x.count; ++i)
-                shares[static_cast<std::size_t>(grid.index(i, j, k))] =
+                shares[grid.index(i, j, k)] =
                     upright * (round ? disc_share(container.half_width, x, i, y, j)
                                      : share_between(x, i, -container.depth / 2, container.depth / 2));
         }
@@ -234,7 +234,7 @@ std::vector<double> shares_inside_mesh(const FieldGrid& grid, const Scene& scene
              pieces_inside(scene.container, *scene.meshes[*mesh].surface, x.low, end, at_y, at_z))
             for (std::int64_t i = 0; i < x.count; ++i) {
                 const double begin = x.low + static_cast<double>(i) * x.cell;
-                shares[static_cast<std::size_t>(grid.index(i, j, k))] +=
+                shares[grid.index(i, j, k)] +=
                     overlap(piece, begin, begin + x.cell) / (x.cell * kRows * kRows);
             }
     }

@@ -46,7 +46,7 @@ const MassCounts& FedMass::of(std::span<const std::int64_t> given, double quantu
         for (std::int64_t& next = given_[feed]; next < given[feed]; ++next) {
             const NewGrain grain = fed_grain(scene_, feed, next);
             one.set_radius(0, grain.radius, grain.density);
-            sums_[static_cast<std::size_t>(grain.species)] += mass_count(one.mass(0), quantum);
+            sums_[grain.species] += mass_count(one.mass(0), quantum);
         }
     return sums_;
 }

@@ -87,7 +87,7 @@ class Outflow final : public Observer {
         WideInt left = 0;
         for (const Departure& one : m.left_at_start) {
             const WideInt mass = mass_count(one.mass, quantum_);
-            at_start_[static_cast<std::size_t>(one.species)] += mass;
+            at_start_[one.species] += mass;
             left += mass;
         }
         most_ = total(inside(m));
@@ -136,8 +136,7 @@ class Outflow final : public Observer {
     MassCounts inside(const ObservedState& m) const {
         MassCounts sums(m.scene.species.size(), 0);
         for (std::size_t i = 0; i < m.grains.size(); ++i)
-            if (!is_in_tray(m, i))
-                sums[static_cast<std::size_t>(m.grains.species[i])] += mass_count(m.grains.mass(i), quantum_);
+            if (!is_in_tray(m, i)) sums[m.grains.species[i]] += mass_count(m.grains.mass(i), quantum_);
         return sums;
     }
     MassCounts gone(const ObservedState& m) {

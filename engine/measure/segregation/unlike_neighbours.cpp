@@ -46,7 +46,7 @@ double unlike_neighbours(const LargeArray<Place>& place, const std::vector<std::
     double unlike = 0, all = 0;
     NeighbourPairs(place, gap, period).each([&](std::int32_t a, std::int32_t b) {
         all += 1;
-        unlike += species[static_cast<std::size_t>(a)] != species[static_cast<std::size_t>(b)];
+        unlike += species[a] != species[b];
     });
     const double chance = unlike_by_chance(place, species);
     if (all == 0 || chance == 0) return none;

@@ -78,7 +78,7 @@ class Columns {
                 sum += top_of(at(j, i));
                 filled += 1;
             }
-            if (filled > 0) s.height[static_cast<std::size_t>(j)] = sum / filled;
+            if (filled > 0) s.height[j] = sum / filled;
         }
         return s;
     }
@@ -110,15 +110,13 @@ void fill_gaps(std::vector<double>& height) {
     const std::vector<double> given = height;
     const auto count = static_cast<std::ptrdiff_t>(given.size());
     const auto nearest = [&](std::ptrdiff_t from, std::ptrdiff_t step) {
-        while (from >= 0 && from < count && given[static_cast<std::size_t>(from)] == kEmpty) from += step;
-        return from >= 0 && from < count ? given[static_cast<std::size_t>(from)] : kEmpty;
+        while (from >= 0 && from < count && given[from] == kEmpty) from += step;
+        return from >= 0 && from < count ? given[from] : kEmpty;
     };
     for (std::ptrdiff_t i = 0; i < count; ++i) {
-        if (given[static_cast<std::size_t>(i)] != kEmpty) continue;
+        if (given[i] != kEmpty) continue;
         const double left = nearest(i, -1), right = nearest(i, 1);
-        height[static_cast<std::size_t>(i)] = left == kEmpty    ? right
-                                              : right == kEmpty ? left
-                                                                : 0.5 * (left + right);
+        height[i] = left == kEmpty ? right : right == kEmpty ? left : 0.5 * (left + right);
     }
 }
 

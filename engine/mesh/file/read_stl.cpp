@@ -36,7 +36,7 @@ class VertexPool {
         place += Vec3(0, 0, 0);  // makes 0 of -0, which would have another hash
         std::size_t slot = hash(place) & (table_.size() - 1);
         while (table_[slot] >= 0) {
-            if (vertices_[static_cast<std::size_t>(table_[slot])] == place) return table_[slot];
+            if (vertices_[table_[slot]] == place) return table_[slot];
             slot = (slot + 1) & (table_.size() - 1);
         }
         const auto number = static_cast<std::int32_t>(vertices_.size());

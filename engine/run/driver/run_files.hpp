@@ -15,10 +15,12 @@
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
+#include "engine/measure/flow/flowed_out.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/contact.hpp"
 
 namespace grainreel {
 

@@ -13,6 +13,7 @@
 #include "engine/frame.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/contact.hpp"
 #include "engine/state/grains.hpp"
 
 namespace grainreel {

@@ -15,6 +15,7 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/contact.hpp"
 
 namespace grainreel {
 

@@ -15,6 +15,7 @@
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/contact.hpp"
 #include "engine/state/traffic.hpp"
 
 namespace grainreel {

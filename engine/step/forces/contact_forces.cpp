@@ -130,7 +130,7 @@ void find_patches(const ForceInput& in, std::size_t g, ThreadContacts& contacts,
             } else if (!patch.goes_on) {
                 table.histories().clear(c);
             }
-            lists.touch[static_cast<std::size_t>(c)] = patch.touch;
+            lists.touch[c] = patch.touch;
         }
         if (matcher.fault()) note(*matcher.fault(), contacts.fault);
     }
@@ -315,7 +315,7 @@ std::vector<MeshTouch> see_new_patches(const ForceInput& in, std::size_t g, cons
         for (const MatchedPatch& patch : memory.matcher.match(in, in.meshes, group, near, lists, table)) {
             const std::int32_t second = near.mesh * kMostPatches + patch.number;
             if (patch.goes_on)
-                touch[static_cast<std::size_t>(near.contact[patch.number])] = patch.touch;
+                touch[near.contact[patch.number]] = patch.touch;
             else
                 see_alone(in, group, near.grain, second, &patch.touch, contacts.begin, memory, see);
         }

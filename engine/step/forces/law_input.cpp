@@ -93,15 +93,14 @@ std::optional<LoneContact> lone_contact(const ContactGroup& group, const MeshNea
                                         const ContactTable& table) {
     std::int32_t found = -1;
     for (std::int32_t number = 0; number < near.slots; ++number) {
-        const std::int32_t c = near.contact[static_cast<std::size_t>(number)];
+        const std::int32_t c = near.contact[number];
         if (c == MeshNear::kNone || !table.touches(c)) continue;
         if (found >= 0) return std::nullopt;
         found = number;
     }
     if (found < 0) return std::nullopt;
     double kept[3];
-    table.histories().get(near.contact[static_cast<std::size_t>(found)], group.law_size() + kNormalX, 3,
-                          kept);
+    table.histories().get(near.contact[found], group.law_size() + kNormalX, 3, kept);
     return LoneContact{found, Vec3(kept[0], kept[1], kept[2])};
 }
 

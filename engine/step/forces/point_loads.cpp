@@ -21,7 +21,7 @@ void add_at_point(const WallForces& in, bool of_meshes, int c) {
     const std::int32_t grain = chunk.first[c], second = chunk.second[c];
     const std::int32_t wall =
         of_meshes ? static_cast<std::int32_t>(in.walls.faces.size()) + mesh_of(second) : second;
-    const WallPose& pose = in.walls.poses[static_cast<std::size_t>(wall)];
+    const WallPose& pose = in.walls.poses[wall];
     const Place& place = in.grains.place[grain];
     const Vec3 k = vector_of(chunk.touch->normal, c, size);
     const double normal = chunk.force->normal.get(c, size);

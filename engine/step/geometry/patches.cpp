@@ -165,12 +165,12 @@ bool Patches::is_minimum(int t) {
         if (other >= 0 && is_nearer(touching_[other].nearest.squared, squared)) return false;
     }
     const TriangleMesh& mesh = surface_->mesh();
-    const TriangleMesh::Triangle& own = mesh.triangles[static_cast<std::size_t>(number)];
-    const std::int32_t one = own[static_cast<std::size_t>(first)];
-    const std::int32_t two = at_edge ? own[static_cast<std::size_t>((first + 1) % 3)] : one;
+    const TriangleMesh::Triangle& own = mesh.triangles[number];
+    const std::int32_t one = own[first];
+    const std::int32_t two = at_edge ? own[(first + 1) % 3] : one;
     bool minimum = true;
     for (std::size_t o = 0; o < touching_.size(); ++o) {
-        const TriangleMesh::Triangle& more = mesh.triangles[static_cast<std::size_t>(touching_[o].triangle)];
+        const TriangleMesh::Triangle& more = mesh.triangles[touching_[o].triangle];
         if (!has_vertex(more, one) || !has_vertex(more, two)) continue;
         if (is_nearer(touching_[o].nearest.squared, squared))
             minimum = false;

@@ -82,8 +82,8 @@ void set_copies_apart(const GeometryInput& in, TouchChunk& out) {
 
 // The point of a face that is nearest to the grain's centre. A cylinder turns about its own axis only.
 WallPoint point_of(const GeometryInput& in, int c, const WallState& walls) {
-    const FaceRecord& face = walls.faces[static_cast<std::size_t>(in.second[c])];
-    const WallPose& pose = walls.poses[static_cast<std::size_t>(in.second[c])];
+    const FaceRecord& face = walls.faces[in.second[c]];
+    const WallPose& pose = walls.poses[in.second[c]];
     const std::int32_t grain = in.first[c];
     const Vec3& centre = in.grains->place[grain].position;
     WallPoint point;

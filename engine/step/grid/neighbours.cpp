@@ -117,7 +117,7 @@ GluedSearch::GluedSearch(const GluedGrains& glued, const std::vector<Face>& face
     : period_(period) {
     std::vector<std::vector<std::int32_t>> members;  // one for each part
     for (std::size_t g = 0; g < glued.size(); ++g) {
-        const Body& body = faces[static_cast<std::size_t>(glued.face[g])].body;
+        const Body& body = faces[glued.face[g]].body;
         at_rest_.push_back({glued.centre(g, faces, {}), glued.place[g].radius});
         at_rest_.back().position.x() = wrapped(at_rest_.back().position.x(), period);
         largest_ = std::max(largest_, glued.place[g].radius);
@@ -129,10 +129,10 @@ GluedSearch::GluedSearch(const GluedGrains& glued, const std::vector<Face>& face
     }
     for (std::size_t part = 0; part < parts_.size(); ++part) {
         GridFrame frame;
-        frame.low = frame.high = at_rest_[static_cast<std::size_t>(members[part][0])].position;
+        frame.low = frame.high = at_rest_[members[part][0]].position;
         for (const std::int32_t g : members[part]) {
-            frame.low = frame.low.cwiseMin(at_rest_[static_cast<std::size_t>(g)].position);
-            frame.high = frame.high.cwiseMax(at_rest_[static_cast<std::size_t>(g)].position);
+            frame.low = frame.low.cwiseMin(at_rest_[g].position);
+            frame.high = frame.high.cwiseMax(at_rest_[g].position);
         }
         if (period > 0) frame.low.x() = -0.5 * period, frame.high.x() = 0.5 * period;
         frame.grains = members[part].size();

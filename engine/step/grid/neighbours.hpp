@@ -95,9 +95,9 @@ class GluedSearch {
     };
     // Distance (m) from a place to the surface of glued grain g, in the frame of the body.
     double distance_to(std::int32_t g, const Vec3& at_rest) const {
-        Vec3 apart = at_rest - at_rest_[static_cast<std::size_t>(g)].position;
+        Vec3 apart = at_rest - at_rest_[g].position;
         apart.x() = wrapped(apart.x(), period_);
-        return apart.norm() - at_rest_[static_cast<std::size_t>(g)].radius;
+        return apart.norm() - at_rest_[g].radius;
     }
 
     const double period_;

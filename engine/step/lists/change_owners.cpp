@@ -97,7 +97,7 @@ void leave_out(NeighbourList& list, const std::vector<std::int32_t>& index) {
         const std::int32_t begin = std::exchange(from, list.start[i + 1]);
         if (index[i] == kGone) continue;
         for (std::int32_t at = begin; at < from; ++at) {
-            const std::int32_t partner = index[static_cast<std::size_t>(list.partner[at])];
+            const std::int32_t partner = index[list.partner[at]];
             if (partner == kGone) continue;
             list.farthest_partner = std::max(list.farthest_partner, partner - index[i]);
             list.partner[partners++] = partner;
@@ -111,8 +111,7 @@ void leave_out(NeighbourList& list, const std::vector<std::int32_t>& index) {
 void leave_out(std::vector<WallNeighbour>& walls, const std::vector<std::int32_t>& index) {
     std::size_t kept = 0;
     for (const WallNeighbour& w : walls)
-        if (index[static_cast<std::size_t>(w.grain)] != kGone)
-            walls[kept++] = {index[static_cast<std::size_t>(w.grain)], w.face};
+        if (index[w.grain] != kGone) walls[kept++] = {index[w.grain], w.face};
     walls.resize(kept);
 }
 

@@ -60,7 +60,7 @@ struct ContactRules {
     ContactRules(const Plan& plan, double period_of_x);
     bool one_group_of_pairs() const { return groups.size() < 2 || !groups[1].of_pairs; }
     std::size_t group_of(std::int32_t mesh, std::int32_t of_species) const {
-        return static_cast<std::size_t>(group_of_mesh[static_cast<std::size_t>(mesh * species + of_species)]);
+        return static_cast<std::size_t>(group_of_mesh[mesh * species + of_species]);
     }
 };
 

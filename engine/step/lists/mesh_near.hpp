@@ -32,7 +32,7 @@ struct MeshNear {
     std::array<std::int32_t, kMostPatches> contact;  // places of its patches in the table, or kNone
 
     void set_contact(std::int32_t number, std::int32_t at) {
-        contact[static_cast<std::size_t>(number)] = at;
+        contact[number] = at;
         slots = std::max(slots, number + 1);
     }
 };

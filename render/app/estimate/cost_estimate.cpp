@@ -23,6 +23,7 @@
 #include "render/app/messages/stop_signal.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/sampling/film_frames.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -231,8 +232,8 @@ std::vector<std::size_t> spread_species(const FilmedScene& scene) {
 
 // Moves the bed about as far as it moves between two frames in slow motion: all grains together, and each a
 // little by itself.
-FramePtr shaken(const Frame& bed, int k, Random& random) {
-    Frame frame = bed;
+ShotPtr shaken(const Frame& bed, int k, Random& random) {
+    Shot frame = bed;
     frame.step = k;
     frame.time = 0.01 * k;
     for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -240,7 +241,7 @@ FramePtr shaken(const Frame& bed, int k, Random& random) {
         frame.velocity[i] = 10 * random.in_cube(reach);
         frame.position[i] += random.in_cube(reach) + Vec3(0, 0, 0.3 * frame.radius[0] * (k % 4));
     }
-    return std::make_shared<const Frame>(std::move(frame));
+    return std::make_shared<const Shot>(std::move(frame));
 }
 
 struct FilmUse {

@@ -170,8 +170,9 @@ class Inspection {
                                         Reporter& reporter) const {
         try {
             Snapshot snapshot = kept_snapshot(run, asked.nearest, takes(Needs::period));
-            if (asks_.draws() && shows_wear(asked_.scene))
-                snapshot.frame.worn = run.worn(snapshot.frame.time);
+            const double time = snapshot.frame.time;
+            if (asks_.draws() && shows_wear(asked_.scene)) snapshot.worn = run.worn(time);
+            if (asks_.draws() && asked_.scene.film.shows.outflow) snapshot.flowed_out = run.flowed_out(time);
             return snapshot;
         } catch (const DamagedFrame& damage) {
             if (asks_.no_replay || !asked.kept || !run.brings_back(asked.step)) throw;

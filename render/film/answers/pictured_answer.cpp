@@ -10,6 +10,7 @@
 #include "render/film/production/picture_files.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/film/sources/recorded_scene.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/grains/shown_grains.hpp"
@@ -41,7 +42,8 @@ PixelPicker::PixelPicker(const Snapshot& s, const FilmedScene& scene, double fil
     : snapshot_(s), scene_(scene) {
     Exaggeration exaggeration(scene.film.exaggerate);
     ShownGrains not_hidden(scene, scene.film.shows.hidden);
-    const Frame& shown = exaggeration.shown(s.frame);
+    const Shot as_asked(s.frame);
+    const Shot& shown = exaggeration.shown(as_asked);
     view_ = view_of(scene, shown, film_time);
     shown_ = not_hidden.of(shown);
 }
@@ -91,7 +93,7 @@ FilmedScene scene_of_moment(FilmedScene scene, const Snapshot& snapshot, const A
         shows.colour = {}, shows.highlight_if = {}, shows.arrows = {}, shows.streamlines = {};
     }
     if (!snapshot.contacts && needs_touches(shows)) shows.colour = {}, shows.highlight_if = {};
-    if (!snapshot.frame.worn) scene.film.look.walls.colour = FilmWalls::Colour::plain;
+    if (!snapshot.worn) scene.film.look.walls.colour = FilmWalls::Colour::plain;
     shows.trails = {};
     shows.highlighted = marks.grains;
     shows.force_chains = snapshot.contacts && marks.lines && !marks.grains.empty();
@@ -120,15 +122,19 @@ void check_picture_file(const std::filesystem::path& file) {
 void draw_answer(const Snapshot& snapshot, const FilmedScene& filmed, const AnswerMarks& marks,
                  double film_time, const std::filesystem::path& file, gl::Provider provider) {
     const FilmedScene scene = scene_of_moment(filmed, snapshot, marks);
-    Frame frame = snapshot.frame;
+    Shot shot = snapshot.frame;
+    shot.displacement = snapshot.displacement;
+    shot.touches = snapshot.touches;
+    shot.worn = snapshot.worn;
+    shot.flowed_out = snapshot.flowed_out;
     if (scene.film.shows.force_chains)
-        std::erase_if(frame.touches, [&](const Touch& touch) {
+        std::erase_if(shot.touches, [&](const Touch& touch) {
             return !is_among(marks.grains, touch.first) && !is_among(marks.grains, touch.second);
         });
     Renderer renderer(scene, drawing_threads(scene.run.threads).raster, provider);
     renderer.point_out({marks.grains, marks.forces});
     renderer.start_from(snapshot.start);
-    write_png(file, renderer.draw(frame, "", film_time), texts_of(scene.name, scene.film.title, frame, ""),
+    write_png(file, renderer.draw(shot, "", film_time), texts_of(scene.name, scene.film.title, shot, ""),
               scene.film.transparent);
 }
 

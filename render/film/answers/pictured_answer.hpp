@@ -14,6 +14,7 @@
 #include "engine/questions/ray.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/scene/keys/keys.hpp"
+#include "engine/state/contact.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/marks/force_marks.hpp"

@@ -41,8 +41,8 @@ std::function<bool()> CompareRun::go_on() const {
 
 bool CompareRun::work() {
     begin();
-    Frames frames(all_.members.size());
-    const auto pack = [this](ComparedMember& member, FramePtr&) { return member.pack(go_on()); };
+    Shots frames(all_.members.size());
+    const auto pack = [this](ComparedMember& member, ShotPtr&) { return member.pack(go_on()); };
     if (!for_all(Stage::packing, frames, pack)) return false;
     mark_begun();
     for (const auto& member : all_.members)
@@ -55,22 +55,22 @@ bool CompareRun::work() {
 }
 
 // Takes the next picture of every panel, each in the panel's own thread.
-bool CompareRun::next(Frames& frames) {
-    return for_all(Stage::pictures, frames, [this](ComparedMember& member, FramePtr& frame) {
+bool CompareRun::next(Shots& frames) {
+    return for_all(Stage::pictures, frames, [this](ComparedMember& member, ShotPtr& frame) {
         frame = member.next(go_on());
         return frame != nullptr;
     });
 }
 
 // Runs all members to their ends.
-bool CompareRun::finish(Frames& frames) {
-    return for_all(Stage::pictures, frames, [this](ComparedMember& member, FramePtr&) {
+bool CompareRun::finish(Shots& frames) {
+    return for_all(Stage::pictures, frames, [this](ComparedMember& member, ShotPtr&) {
         member.next(go_on());
         return desk_.listener.stop_signal() == 0;
     });
 }
 
-bool CompareRun::draw_still(Frames& frames) {
+bool CompareRun::draw_still(Shots& frames) {
     const Instant moment = all_.pictures.instants.front();
     stage_ = Stopwatch();
     if (!next(frames)) return false;
@@ -86,7 +86,7 @@ bool CompareRun::draw_still(Frames& frames) {
     return true;
 }
 
-bool CompareRun::draw_film(Frames& frames) {
+bool CompareRun::draw_film(Shots& frames) {
     const std::vector<Instant>& instants = all_.pictures.instants;
     std::vector<std::size_t> segment_of;
     for (const Instant& instant : instants) segment_of.push_back(static_cast<std::size_t>(instant.segment));
@@ -106,7 +106,7 @@ const char* CompareRun::name_of(Stage stage) const {
     return stage == Stage::packing ? "packing" : all_.all_recorded() ? "reading" : "engine";
 }
 
-bool CompareRun::for_all(Stage stage, Frames& frames, const Work& work) {
+bool CompareRun::for_all(Stage stage, Shots& frames, const Work& work) {
     const auto timer = desk_.times.during(name_of(stage));
     std::atomic<bool> all_well = true;
     std::vector<std::function<void()>> works;
@@ -197,7 +197,7 @@ class SideBySideDrawer final : public Drawer {
           clock_(clock),
           segments_(std::move(segments)),
           rate_(film.rate) {}
-    void draw(const Frames& frames, const std::string&, Picture& into) override {
+    void draw(const Shots& frames, const std::string&, Picture& into) override {
         into = panels_.draw(frames, segments_.at(drawn_), clock_, static_cast<double>(drawn_) / rate_);
         ++drawn_;
     }

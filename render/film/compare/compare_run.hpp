@@ -29,15 +29,15 @@ class CompareRun final : public FilmRun {
     void report_written() override;
 
     void begin();
-    bool next(Frames& frames);
-    bool finish(Frames& frames);
-    bool draw_film(Frames& frames);
-    bool draw_still(Frames& frames);
+    bool next(Shots& frames);
+    bool finish(Shots& frames);
+    bool draw_film(Shots& frames);
+    bool draw_still(Shots& frames);
     // Does `work` for every panel at once, each on a thread of its own, and shows the progress. Returns false
     // if one of them did.
     enum class Stage { packing, pictures };
-    using Work = std::function<bool(ComparedMember&, FramePtr&)>;
-    bool for_all(Stage stage, Frames& frames, const Work& work);
+    using Work = std::function<bool(ComparedMember&, ShotPtr&)>;
+    bool for_all(Stage stage, Shots& frames, const Work& work);
     const char* name_of(Stage stage) const;  // name of the stage in run.json
     void show_progress(Stage stage);
     std::function<bool()> go_on() const;

@@ -64,7 +64,7 @@ void ComparedMember::start(const Pictures& pictures) {
 }
 
 // Progress is noted on the thread that runs the scene and read on another.
-FramePtr ComparedMember::next(const GoOn& go_on) {
+ShotPtr ComparedMember::next(const GoOn& go_on) {
     const auto noting = [&] {
         if (driver_) {
             done_ = driver_->done();

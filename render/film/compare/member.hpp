@@ -43,7 +43,7 @@ class ComparedMember {
     bool pack(const GoOn& go_on);
     std::string found_packing_text() const { return driver_ ? driver_->found_packing_text() : ""; }
     void start(const Pictures& pictures);
-    FramePtr next(const GoOn& go_on);  // null also after the last picture; the rest of the run is then done
+    ShotPtr next(const GoOn& go_on);  // null also after the last picture; the rest of the run is then done
 
     // At the end keep_state() and then close() are called, whatever happened before. close() completes
     // run.json and may be called twice. status: that of the whole film. If only another member has failed,

@@ -51,10 +51,10 @@ std::size_t frames_that_wait(const FilmedScene& scene, const FilmOptions& option
 constexpr std::size_t pictures_in_all = waiting_pictures + 3;
 
 struct Order {
-    Frames frames;
+    Shots shots;
     std::string playback;
-    std::int64_t more;  // how many more times the film shows the picture
-    bool drawn;         // false: the frames are only remembered
+    std::int64_t more = 0;  // how many more times the film shows the picture
+    bool drawn = true;      // false: the shots are only remembered
 };
 struct Drawn {
     DrawnFrame frame;
@@ -102,15 +102,15 @@ struct FilmMaker::Impl {
         tell_drawer();
         while (std::optional<Order> order = frames.pop()) {
             if (!order->drawn) {
-                drawer->remember(order->frames);
+                drawer->remember(order->shots);
                 continue;
             }
             std::optional<Picture> canvas = spare.pop();
             if (!canvas) return;
             const Watch::time_point start = Watch::now();
-            drawer->draw(order->frames, order->playback, *canvas);
+            drawer->draw(order->shots, order->playback, *canvas);
             draw_seconds += seconds_since(start);
-            pictures.push({{std::move(*canvas), std::move(order->frames.front()), std::move(order->playback)},
+            pictures.push({{std::move(*canvas), std::move(order->shots.front()), std::move(order->playback)},
                            order->more});
         }
         last_note = drawer->last_note();
@@ -209,20 +209,19 @@ FilmMaker::FilmMaker(const FilmedScene& scene, const FilmOptions& options, Drawe
 
 FilmMaker::~FilmMaker() = default;
 
-void FilmMaker::take(Frames frames, std::string playback) {
-    GRAINREEL_CHECK(!impl_->complete && !frames.empty());
+void FilmMaker::take(Shots shots, std::string playback) {
+    GRAINREEL_CHECK(!impl_->complete && !shots.empty());
     const Watch::time_point start = Watch::now();
-    const std::int64_t more = impl_->holds.begin_at(frames.front()->time);
-    const bool drawn = true;
-    const bool taken = impl_->frames.push({std::move(frames), std::move(playback), more, drawn});
+    const std::int64_t more = impl_->holds.begin_at(shots.front()->time);
+    const bool taken = impl_->frames.push({std::move(shots), std::move(playback), more});
     impl_->waited_seconds += seconds_since(start);
     if (!taken) impl_->throw_failure();
 }
 
-void FilmMaker::remember(FramePtr frame) {
-    GRAINREEL_CHECK(!impl_->complete && frame);
-    const bool drawn = false;
-    if (!impl_->frames.push({Frames{std::move(frame)}, "", 0, drawn})) impl_->throw_failure();
+void FilmMaker::remember(ShotPtr shot) {
+    GRAINREEL_CHECK(!impl_->complete && shot);
+    if (!impl_->frames.push({.shots = {std::move(shot)}, .playback = "", .drawn = false}))
+        impl_->throw_failure();
 }
 
 std::string FilmMaker::drawer() {
@@ -271,10 +270,10 @@ class RendererDrawer final : public Drawer {
           drawn_(static_cast<std::int64_t>(options.extent.earlier.size())) {
         if (options.start) renderer_.start_from(*options.start);
     }
-    void draw(const Frames& frames, const std::string& playback, Picture& into) override {
-        renderer_.draw_into(into, *frames.front(), playback, static_cast<double>(drawn_++) / rate_);
+    void draw(const Shots& shots, const std::string& playback, Picture& into) override {
+        renderer_.draw_into(into, *shots.front(), playback, static_cast<double>(drawn_++) / rate_);
     }
-    void remember(const Frames& frames) override { renderer_.remember(*frames.front()); }
+    void remember(const Shots& shots) override { renderer_.remember(*shots.front()); }
     std::string description() const override { return renderer_.gl_description(); }
     std::string note() const override { return renderer_.gl_note(); }
     std::string last_note() const override { return renderer_.last_note(); }

@@ -12,6 +12,7 @@
 
 #include "engine/frame.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -59,18 +60,18 @@ struct FilmResult {
     std::vector<std::string> notes;  // for the user: "1921x1080 padded to 1922x1080: ..."
 };
 
-// The frames that one picture shows: a single one, or one for each panel, all of the same moment.
-using Frames = std::vector<FramePtr>;
+// What one picture shows: a single shot, or one for each panel, all of the same moment.
+using Shots = std::vector<ShotPtr>;
 
-// Turns frames into a picture. A film of one scene has a RendererDrawer (film_maker.cpp), a comparison a
+// Turns shots into a picture. A film of one scene has a RendererDrawer (film_maker.cpp), a comparison a
 // SideBySideDrawer (compare_run.cpp). A drawer is made, used and destroyed on one thread.
 class Drawer {
   public:
     virtual ~Drawer() = default;
     // Draws into an empty picture, or one that this drawer has drawn before.
-    virtual void draw(const Frames& frames, const std::string& playback, Picture& into) = 0;
-    // Takes frames that come before the first drawn one. Trails on later pictures may show them.
-    virtual void remember(const Frames&) {}
+    virtual void draw(const Shots& shots, const std::string& playback, Picture& into) = 0;
+    // Takes shots that come before the first drawn one. Trails on later pictures may show them.
+    virtual void remember(const Shots&) {}
     virtual std::string description() const = 0;
     virtual std::string note() const { return {}; }  // what the user should know about the drawer
     // What the user should know about all pictures that it has drawn.
@@ -88,15 +89,15 @@ class FilmMaker {
     // Waits until the drawer is made and says what it is. Throws RunError when it cannot be made.
     std::string drawer();
 
-    // Takes one picture's frames with their caption. The film shows the picture once, or held_frames() more
+    // Takes what one picture shows, with its caption. The film shows the picture once, or held_frames() more
     // times when a caption of the scene begins with it. Waits while the queue is full. Throws RunError with
     // the words of the first failure when drawing or encoding failed (disk full, say).
-    void take(Frames frames, std::string playback);
-    void take(FramePtr frame, std::string playback) { take(Frames{std::move(frame)}, std::move(playback)); }
+    void take(Shots shots, std::string playback);
+    void take(ShotPtr shot, std::string playback) { take(Shots{std::move(shot)}, std::move(playback)); }
 
-    // Takes a frame that comes before the first picture of this part of a film. Nothing is drawn, but trails
+    // Takes a shot that comes before the first picture of this part of a film. Nothing is drawn, but trails
     // show it. Throws RunError as above.
-    void remember(FramePtr frame);
+    void remember(ShotPtr shot);
 
     // Draws and encodes what is queued and closes the film (remuxed to faststart). Throws RunError as above.
     // Neither take() nor finish() may follow. in_a_hurry is called now and then. Once it returns true, what

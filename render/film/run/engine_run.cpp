@@ -79,7 +79,7 @@ CarriedScene as_handed_over(const fs::path& run, const FilmedScene& scene, const
 std::vector<std::int64_t> needed_steps(const FilmedScene& scene, const Clock& clock, std::int64_t steps) {
     std::vector<std::int64_t> needed;
     const std::vector<FilmSegment> segments = segments_of(scene.film);
-    for (const Shot& shot : film_schedule(scene, clock, steps)) {
+    for (const Due& shot : film_schedule(scene, clock, steps)) {
         needed.push_back(shot.step);
         const FilmSegment& segment = segments[static_cast<std::size_t>(shot.segment)];
         for (const auto& more : {exposed_steps(shot, segment, clock), averaged_steps(shot, segment, clock)})
@@ -274,7 +274,7 @@ bool EngineRun::draw() {
     if (!film_.wanted()) return true;
     constexpr bool replay = false;
     StoredShots source(folder(), {}, replay);
-    const std::vector<Shot> shots = source.shown_shots();
+    const std::vector<Due> shots = source.shown_shots();
     if (shots.empty()) return true;
     const auto go_on = [this] { return !desk_.listener.in_a_hurry(); };
     const FramePtr start = source.grains(shots.front().step, go_on);

@@ -152,7 +152,7 @@ std::string checksum_of_run(const FrameArchive& frames, const std::string& scene
     return digest.text();
 }
 
-std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Shot>& shots,
+std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Due>& shots,
                                  const std::vector<std::string>& captions) {
     FilmedScene drawn = scene;
     drawn.run.threads = 0;  // the number of threads depends on the machine
@@ -161,7 +161,7 @@ std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Sho
     digest.add(written_scene(drawn));
     for (const std::string& caption : captions) digest.add(caption);
     std::vector<std::int64_t> numbers;
-    for (const Shot& shot : shots) {
+    for (const Due& shot : shots) {
         numbers.push_back(shot.step);
         numbers.push_back(shot.segment);
     }

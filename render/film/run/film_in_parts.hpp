@@ -57,7 +57,7 @@ class FilmInParts {
 std::string checksum_of_run(const FrameArchive& frames, const std::string& scene);
 // A checksum that is the same for parts of the same film: of the scene as it is drawn, and of the moments and
 // their words.
-std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Shot>& shots,
+std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Due>& shots,
                                  const std::vector<std::string>& captions);
 
 struct JoinRequest {

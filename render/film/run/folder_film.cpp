@@ -141,7 +141,7 @@ std::int64_t film_agrees_until(const FilmedScene& scene, const Plan& plan,
                                const std::vector<std::int64_t>& kept, std::int64_t first, std::int64_t end) {
     const std::vector<Instant> instants = instants_of(scene, plan.clock, plan.steps);
     std::size_t k = 0;
-    for (const Shot& shot : shots_at(instants, scene.film.segments, plan.clock, plan.steps)) {
+    for (const Due& shot : shots_at(instants, scene.film.segments, plan.clock, plan.steps)) {
         if (shot.step >= end) break;
         if (shot.step < first) continue;
         if (k < kept.size() && kept[k] == shot.step) {

@@ -172,7 +172,7 @@ void FollowJob::draw(const Taken& picture) {
 
 bool FollowJob::draw_new() {
     if (back_->frames() > opened_at_) open_anew();
-    const std::vector<Shot> shots = source_->shown_shots(shown_);
+    const std::vector<Due> shots = source_->shown_shots(shown_);
     if (shots.empty()) return !stopped();
     const auto go_on = [this] {
         desk_.folder->lock().check_there();

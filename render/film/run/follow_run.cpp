@@ -103,10 +103,10 @@ bool FollowRun::draw_new(bool at_end) {
     for (const std::size_t whole = whole_frames(at_end); drawn_ < whole; ++drawn_) {
         if (desk_.listener.stop_signal() != 0) return false;
         desk_.folder->lock().check_there();
-        Frame frame = frames_->grains(drawn_);
+        Shot shot = frames_->grains(drawn_);
         if (needs_touches(scene_.film.shows))
-            frame.touches = frames_->touches(drawn_).value_or(std::vector<Touch>());
-        film_.maker().take(std::make_shared<const Frame>(std::move(frame)), "");
+            shot.touches = frames_->touches(drawn_).value_or(std::vector<Touch>());
+        film_.maker().take(std::make_shared<const Shot>(std::move(shot)), "");
         show_progress();
     }
     return true;

@@ -28,9 +28,9 @@ void check_out(const FilmRequest& request, const std::filesystem::path& run) {
         throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
 }
 
-std::vector<Frame> moments_of(const std::vector<Shot>& shots, const FilmSchedule& film) {
+std::vector<Frame> moments_of(const std::vector<Due>& shots, const FilmSchedule& film) {
     std::vector<Frame> moments;
-    for (const Shot& shot : shots) moments.push_back(film.moment(shot.step));
+    for (const Due& shot : shots) moments.push_back(film.moment(shot.step));
     return moments;
 }
 
@@ -73,12 +73,12 @@ RedrawRun::RedrawRun(const FilmRequest& request, const RenderRequest& what, RunL
 
 void RedrawRun::choose_parts(const PartsWanted& wanted) {
     std::vector<double> times;
-    for (const Shot& shot : shots_) times.push_back(source_.film().moment(shot.step).time);
+    for (const Due& shot : shots_) times.push_back(source_.film().moment(shot.step).time);
     parts_.emplace(wanted, film_.request(), scene_, std::move(times));
     film_.use_extent(parts_->extent(), parts_->here().frames);
 }
 
-std::vector<Shot> RedrawRun::drawn() const {
+std::vector<Due> RedrawRun::drawn() const {
     if (!parts_) return shots_;
     const auto first = shots_.begin() + parts_->here().first_picture;
     return {first, first + parts_->here().pictures};
@@ -88,9 +88,9 @@ std::vector<Shot> RedrawRun::drawn() const {
 void RedrawRun::choose_pictures(const RenderRequest& what) {
     constexpr double hair = 1e-9;  // s: tolerance of times
     const FilmSchedule& film = source_.film();
-    const std::vector<Shot> all = film.shots();
+    const std::vector<Due> all = film.shots();
     scene_.film.segments = source_.segments();
-    for (const Shot& shot : all) {
+    for (const Due& shot : all) {
         const double time = film.moment(shot.step).time;
         if (time >= what.from.value_or(time) - hair && time <= what.to.value_or(time) + hair)
             shots_.push_back(shot);
@@ -107,9 +107,9 @@ void RedrawRun::choose_pictures(const RenderRequest& what) {
 
 // Replaces moments that cannot be had by the nearest kept moment. Each kept moment is shown once.
 void RedrawRun::show_what_there_is() {
-    std::vector<Shot> shown;
+    std::vector<Due> shown;
     std::set<std::size_t> uneven;
-    for (const Shot& shot : shots_) {
+    for (const Due& shot : shots_) {
         const std::int64_t step = source_.shown(shot.step);
         if (step == shot.step && source_.origin_of(step) == Origin::checkpoint && ++brought_back_ > 0)
             source_.prove(step);
@@ -124,8 +124,8 @@ void RedrawRun::show_what_there_is() {
     shots_ = std::move(shown);
     captions_.resize(segments_of(scene_.film).size());
     for (const std::size_t segment : uneven) {
-        std::vector<Shot> inside = shots_;
-        std::erase_if(inside, [&](const Shot& shot) { return shot.segment != static_cast<int>(segment); });
+        std::vector<Due> inside = shots_;
+        std::erase_if(inside, [&](const Due& shot) { return shot.segment != static_cast<int>(segment); });
         captions_[segment] =
             pacing_caption(moments_of(inside, source_.film()), scene_.drive, scene_.film.rate);
     }
@@ -210,7 +210,7 @@ bool RedrawRun::work() {
     source_.watch_replay([this](double) { return film_.show_progress(), true; });
     const std::int64_t first = parts_ ? parts_->here().first_picture : 0;
     std::int64_t number = parts_ ? parts_->known_from() : 0;  // number of the next picture in the film
-    const std::vector<Shot> seen(shots_.begin() + number, shots_.begin() + first + std::ssize(moments));
+    const std::vector<Due> seen(shots_.begin() + number, shots_.begin() + first + std::ssize(moments));
     source_.start(seen, segments_of(scene_.film));
     const auto next = [&] {
         const auto timer = desk_.times.during("reading");
@@ -248,7 +248,7 @@ std::string RedrawRun::stopped_text() const {
 
 void RedrawRun::report_written() {
     const FilmSchedule& film = source_.film();
-    const std::vector<Shot> shots = drawn();
+    const std::vector<Due> shots = drawn();
     desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
     desk_.listener.info(
         fmt::format("took {}: {} of {}, from {:.6g} to {:.6g} s", duration_text(desk_.watch.seconds()),

@@ -33,7 +33,7 @@ class RedrawRun final : public FilmRun {
     void identify_part();
     void choose_parts(const PartsWanted& wanted);
     // The shots that are drawn.
-    std::vector<Shot> drawn() const;
+    std::vector<Due> drawn() const;
     void choose_pictures(const RenderRequest& what);
     void choose_kept(const RenderRequest& what);
     void show_what_there_is();
@@ -43,7 +43,7 @@ class RedrawRun final : public FilmRun {
 
     StoredShots& source_;
     FilmedScene scene_;        // the run's scene, with a film of these pictures
-    std::vector<Shot> shots_;  // the film's shots, each at the step that is shown
+    std::vector<Due> shots_;  // the film's shots, each at the step that is shown
     std::optional<FilmInParts> parts_;
     bool kept_alone_ = false;                                     // only frames of the trajectory are drawn
     std::size_t brought_back_ = 0, replaced_ = 0, left_out_ = 0;  // numbers of shots

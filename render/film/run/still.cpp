@@ -93,7 +93,7 @@ std::vector<std::int64_t> before(std::int64_t step, double duration, const Store
     constexpr double room = 1.001;
     std::vector<std::int64_t> steps;
     const double from = source.film().moment(step).time - room * duration;
-    for (const Shot& shot : source.film().shots())
+    for (const Due& shot : source.film().shots())
         if (shot.step < step && source.film().moment(shot.step).time >= from && source.has(shot.step))
             steps.push_back(shot.step);
     return steps;
@@ -103,7 +103,7 @@ std::vector<std::int64_t> before(std::int64_t step, double duration, const Store
 // Returns false when told to stop.
 bool remember_what_was(Renderer& renderer, std::int64_t step, StoredShots& source,
                        const FrameSource::GoOn& go_on) {
-    const std::vector<Shot> film = source.film().shots();
+    const std::vector<Due> film = source.film().shots();
     const FramePtr start = film.empty() ? std::make_shared<const Frame>(source.run().first_whole())
                                         : source.grains(source.shown(film.front().step), go_on);
     if (!start) return false;

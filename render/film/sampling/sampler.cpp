@@ -129,7 +129,7 @@ std::vector<Stretch> stretches_of(const FilmedScene& scene, const Clock& clock, 
 
 // Makes the shots. A step that is not later than the last one taken is left out (in slow motion finer than
 // the step, or where two segments meet).
-void make(const Stretch& stretch, const Clock& clock, std::vector<Shot>& shots) {
+void make(const Stretch& stretch, const Clock& clock, std::vector<Due>& shots) {
     for (std::int64_t k = 0;; ++k) {
         double at = static_cast<double>(stretch.first + k * stretch.every);
         if (stretch.periods > 0)
@@ -261,9 +261,9 @@ std::vector<SegmentCount> count_film(const FilmedScene& scene, const Clock& cloc
     return counts;
 }
 
-std::vector<Shot> film_schedule(const FilmedScene& scene, const Clock& clock, std::int64_t steps) {
+std::vector<Due> film_schedule(const FilmedScene& scene, const Clock& clock, std::int64_t steps) {
     check_schedule(scene, count_film(scene, clock, steps));
-    std::vector<Shot> shots;
+    std::vector<Due> shots;
     for (const Stretch& stretch : stretches_of(scene, clock, steps)) make(stretch, clock, shots);
     return shots;
 }
@@ -274,7 +274,7 @@ FilmSegment spanning(FilmSegment segment, int periods) {
     return segment;
 }
 
-std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
+std::vector<std::int64_t> exposed_steps(const Due& shot, const FilmSegment& segment, const Clock& clock,
                                         int periods) {
     std::vector<std::int64_t> steps;
     if (segment.exposure <= 0) return steps;
@@ -290,7 +290,7 @@ std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& seg
     return steps;
 }
 
-std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
+std::vector<std::int64_t> averaged_steps(const Due& shot, const FilmSegment& segment, const Clock& clock,
                                          int periods) {
     std::vector<std::int64_t> steps;
     const std::int64_t count = means_a_period * segment.average;

@@ -10,8 +10,8 @@
 
 namespace grainreel {
 
-// One frame of the film: taken at `step`, under the rule of segment `segment`.
-struct Shot {
+// When a picture of the film is due: at `step`, under the rule of segment `segment`.
+struct Due {
     std::int64_t step = 0;
     int segment = 0;
 };
@@ -50,7 +50,7 @@ std::vector<SegmentCount> count_film(const FilmedScene& scene, const Clock& cloc
 // Without segments there is one in real time. The film ends with its segments when they end before `steps`.
 // Throws UserError when count_film does, and also, before anything is made, when the film would have too many
 // shots (check_schedule).
-std::vector<Shot> film_schedule(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
+std::vector<Due> film_schedule(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
 
 // The segment as it is shown while the bed repeats itself after `periods` periods of the drive. A whole
 // multiple of `periods` lies between its locked frames, and its means span a whole multiple.
@@ -60,14 +60,14 @@ FilmSegment spanning(FilmSegment segment, int periods);
 // may lie before the run. In motion they lie evenly over the exposure. In locked segments they lie whole
 // periods apart, or whole multiples of `periods` where the bed repeats itself after that many. Empty without
 // an exposure.
-std::vector<std::int64_t> exposed_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
+std::vector<std::int64_t> exposed_steps(const Due& shot, const FilmSegment& segment, const Clock& clock,
                                         int periods = 1);
 
 // The steps over which the mean of the picture at `shot` is taken, rising. There are 16 evenly spaced ones
 // for each period of `average`, and the last of them is the shot's own step. Before them stands the step at
 // which the first period begins. If the bed repeats itself after `periods` periods, the steps are spread over
 // the next multiple of `periods`. They may lie before the run. Empty without a mean.
-std::vector<std::int64_t> averaged_steps(const Shot& shot, const FilmSegment& segment, const Clock& clock,
+std::vector<std::int64_t> averaged_steps(const Due& shot, const FilmSegment& segment, const Clock& clock,
                                          int periods = 1);
 
 // Time of the frame that stands for the whole film, in s of simulated time from the film's start. It is the

@@ -48,14 +48,14 @@ std::size_t reference_of(const std::vector<FilmedScene>& scenes) {
 
 std::vector<Instant> instants_of(const FilmedScene& film, const Clock& reference, std::int64_t steps) {
     std::vector<Instant> instants;
-    for (const Shot& shot : film_schedule(film, reference, steps))
+    for (const Due& shot : film_schedule(film, reference, steps))
         instants.push_back({reference.time(shot.step), shot.segment});
     return instants;
 }
 
-std::vector<Shot> shots_at(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments,
-                           const Clock& clock, std::int64_t steps) {
-    std::vector<Shot> shots;
+std::vector<Due> shots_at(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments,
+                          const Clock& clock, std::int64_t steps) {
+    std::vector<Due> shots;
     for (const Instant& instant : instants) {
         const FilmSegment& rule = segments.at(static_cast<std::size_t>(instant.segment));
         const bool locked = rule.kind == FilmSegment::Kind::locked && clock.steps_per_period > 0;

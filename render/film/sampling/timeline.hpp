@@ -29,8 +29,8 @@ std::vector<Instant> instants_of(const FilmedScene& film, const Clock& reference
 // One shot for each instant, from step 0 to `steps`. It is the step nearest in time; in a locked segment it
 // is the nearest step at the segment's phase of this scene's own drive. So two scenes with the same frequency
 // and phase show the same cycle.
-std::vector<Shot> shots_at(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments,
-                           const Clock& clock, std::int64_t steps);
+std::vector<Due> shots_at(const std::vector<Instant>& instants, const std::vector<FilmSegment>& segments,
+                          const Clock& clock, std::int64_t steps);
 
 // Finds the segment that frames of a finished run make when they are shown one after another at `rate` frames
 // a second. The frames need not have been chosen for a film. It is locked if all phases agree and whole

@@ -11,13 +11,13 @@
 
 namespace grainreel {
 
-BedPeriods::BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Shot>& shots,
+BedPeriods::BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Due>& shots,
                        const std::vector<FilmSegment>& segments, bool may_leave_out)
     : clock_(clock),
       wanted_(scene.film.periods),
       may_leave_out_(may_leave_out),
       diameter_(mean_diameter(scene)) {
-    for (const Shot& shot : shots) first_.emplace(shot.segment, shot.step);
+    for (const Due& shot : shots) first_.emplace(shot.segment, shot.step);
     for (const auto& [number, step] : first_) {
         const FilmSegment& segment = segments.at(static_cast<std::size_t>(number));
         locks_ = locks_ || segment.kind == FilmSegment::Kind::locked;
@@ -41,7 +41,7 @@ std::vector<int> BedPeriods::possible() const {
     return all;
 }
 
-bool BedPeriods::shows(const FilmSegment& rule, const Shot& shot) const {
+bool BedPeriods::shows(const FilmSegment& rule, const Due& shot) const {
     if (!may_leave_out_ || rule.kind != FilmSegment::Kind::locked || clock_.steps_per_period == 0)
         return true;
     const std::int64_t periods =

@@ -21,9 +21,9 @@ class BedPeriods {
     // shots: all shots of the film. The shown ones are counted from the first shot of each segment, so that a
     // resumed run shows the same ones. may_leave_out: false if all shots must be shown. segments: those of
     // the film, which may differ from the scene's own.
-    BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Shot>& shots,
+    BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Due>& shots,
                const std::vector<FilmSegment>& segments, bool may_leave_out);
-    BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Shot>& shots,
+    BedPeriods(const FilmedScene& scene, const Clock& clock, const std::vector<Due>& shots,
                bool may_leave_out)
         : BedPeriods(scene, clock, shots, segments_of(scene.film), may_leave_out) {}
 
@@ -35,7 +35,7 @@ class BedPeriods {
     // All numbers of periods that the film may follow.
     std::vector<int> possible() const;
     // Whether the film shows the picture that a segment takes at that step.
-    bool shows(const FilmSegment& rule, const Shot& shot) const;
+    bool shows(const FilmSegment& rule, const Due& shot) const;
     // A line for the user about each change.
     const std::vector<std::string>& news() const { return news_; }
 

@@ -44,29 +44,29 @@ Frame FilmSchedule::moment(std::int64_t step) const {
     return moment;
 }
 
-std::vector<Shot> FilmSchedule::shots() const {
+std::vector<Due> FilmSchedule::shots() const {
     const Clock& clock = run_.clock();
     if (clock.step <= 0) return {{last_, 0}};  // the run has a single moment
     const std::int64_t steps = std::llround(scene_.run.duration / clock.step);
     const std::vector<FilmSegment> segments = segments_of(scene_.film);
-    std::vector<Shot> shots = with_bed(shots_at(instants_of(scene_, clock, steps), segments, clock, steps));
+    std::vector<Due> shots = with_bed(shots_at(instants_of(scene_, clock, steps), segments, clock, steps));
     const std::int64_t first = run_.moments().front().step;
-    std::erase_if(shots, [&](const Shot& shot) { return shot.step < first || shot.step > last_; });
+    std::erase_if(shots, [&](const Due& shot) { return shot.step < first || shot.step > last_; });
     return shots;
 }
 
 // The shots that the film shows, following the periods of the bed. Where the run's own film ended before the
 // run did, later shots follow the periods that the bed had then.
-std::vector<Shot> FilmSchedule::with_bed(const std::vector<Shot>& shots) const {
+std::vector<Due> FilmSchedule::with_bed(const std::vector<Due>& shots) const {
     FilmedScene scene = scene_;
     if (!same_) scene.film.periods = run_.periods();
     const bool may_leave_out = true;
     BedPeriods bed(scene, run_.clock(), shots, may_leave_out);
     const std::vector<FilmSegment> segments = segments_of(scene.film);
     const std::vector<MeasuredPeriods::Row>& rows = measured_.rows();
-    std::vector<Shot> kept;
+    std::vector<Due> kept;
     std::size_t row = 0;
-    for (const Shot& shot : shots) {
+    for (const Due& shot : shots) {
         for (; row < rows.size() && rows[row].step <= static_cast<double>(shot.step); ++row)
             bed.note(static_cast<std::int64_t>(rows[row].step), rows[row].periods, rows[row].difference);
         const bool told = !filmed_.empty() && shot.step <= *filmed_.rbegin();
@@ -78,12 +78,12 @@ std::vector<Shot> FilmSchedule::with_bed(const std::vector<Shot>& shots) const {
 }
 
 FilmSchedule::Place FilmSchedule::place_of(std::int64_t step) const {
-    const std::vector<Shot> all = shots();
+    const std::vector<Due> all = shots();
     const auto after =
         std::upper_bound(all.begin(), all.end(), step,
-                         [](std::int64_t wanted, const Shot& shot) { return wanted < shot.step; });
+                         [](std::int64_t wanted, const Due& shot) { return wanted < shot.step; });
     if (after == all.begin()) return {};
-    const Shot& before = *std::prev(after);
+    const Due& before = *std::prev(after);
     double pictures = static_cast<double>(after - all.begin()) - 1;
     if (after != all.end() && before.step < step)
         pictures += static_cast<double>(step - before.step) / static_cast<double>(after->step - before.step);

@@ -24,7 +24,7 @@ class FilmSchedule {
 
     // The shots by rising step, as far as the run has come. Throws UserError when the film would have too
     // many.
-    std::vector<Shot> shots() const;
+    std::vector<Due> shots() const;
     // Periods of the drive after which the bed repeats itself, as the film takes it at that step.
     int periods_at(std::int64_t step) const;
     // The last step of the run; there may be no frame of it.
@@ -42,7 +42,7 @@ class FilmSchedule {
   private:
     void read_film_times();
     // Those of the shots at which the bed looks alike (BedPeriods).
-    std::vector<Shot> with_bed(const std::vector<Shot>& shots) const;
+    std::vector<Due> with_bed(const std::vector<Due>& shots) const;
 
     const StoredRun& run_;
     const FilmedScene& scene_;

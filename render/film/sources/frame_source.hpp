@@ -14,6 +14,7 @@
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
 #include "render/film/sampling/timeline.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -33,7 +34,7 @@ struct Pictures {
 };
 
 struct Taken {
-    FramePtr frame;
+    ShotPtr frame;
     int segment = 0;  // the film's segment
     int periods = 1;  // periods of the drive after which the bed repeats itself, as the film takes it
 };

@@ -46,33 +46,35 @@ std::vector<WantedMoment> PictureParts::moments(std::int64_t step, const FilmSeg
     return all;
 }
 
-void PictureParts::add(Frame& frame, const FilmSegment& rule, int periods, Beside beside,
+void PictureParts::add(Shot& shot, const FilmSegment& rule, int periods, Beside beside,
                        const OtherMoments& others) const {
-    for (const std::int64_t step : earlier(frame.step, periods))
-        if (const FramePtr before = others(step)) set_displacement(frame, *before, periods, depth_);
-    for (const std::int64_t step : exposed(frame.step, rule, periods))
-        if (FramePtr moment = others(step)) frame.exposed.push_back(std::move(moment));
-    frame.touches = std::move(beside.touches);
-    frame.worn = std::move(beside.worn);
-    frame.flowed_out = beside.flowed_out;
-    frame.measures = std::move(beside.measures);
-    frame.measure_rows = beside.measure_rows;
-    add_mean(frame, rule, periods, others);
+    for (const std::int64_t step : earlier(shot.step, periods))
+        if (const FramePtr before = others(step)) 
+            shot.displacement = displacement_since(*before, shot, periods, depth_);
+    for (const std::int64_t step : exposed(shot.step, rule, periods))
+        if (const FramePtr moment = others(step))
+            shot.exposed.push_back(std::make_shared<const Shot>(*moment));
+    shot.touches = std::move(beside.touches);
+    shot.worn = std::move(beside.worn);
+    shot.flowed_out = beside.flowed_out;
+    shot.measures = std::move(beside.measures);
+    shot.measure_rows = beside.measure_rows;
+    add_mean(shot, rule, periods, others);
 }
 
 // Adds the mean. Before the run's first step the grains are taken to have been where they were at that step.
-void PictureParts::add_mean(Frame& frame, const FilmSegment& rule, int periods,
+void PictureParts::add_mean(Shot& shot, const FilmSegment& rule, int periods,
                             const OtherMoments& others) const {
-    const std::vector<std::int64_t> steps = averaged(frame.step, rule, periods);
+    const std::vector<std::int64_t> steps = averaged(shot.step, rule, periods);
     if (steps.empty()) return;
-    const auto own = std::make_shared<const Frame>(places_of(frame));
+    const auto own = std::make_shared<const Frame>(places_of(shot));
     std::vector<FramePtr> moments;
     for (const std::int64_t step : steps) {
         const std::int64_t from = std::max(step, first_);
-        moments.push_back(from == frame.step ? own : others(from));
+        moments.push_back(from == shot.step ? own : others(from));
         if (!moments.back()) return;
     }
-    set_mean(frame, moments, static_cast<double>(frame.step - steps.front()) * clock_.step, depth_);
+    set_mean(shot, moments, static_cast<double>(shot.step - steps.front()) * clock_.step, depth_);
 }
 
 }  // namespace grainreel

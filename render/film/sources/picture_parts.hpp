@@ -1,4 +1,4 @@
-// PictureParts is the one place that adds to a frame what its picture shows besides the moment itself:
+// PictureParts is the one place that adds to a shot what its picture shows besides the moment itself:
 // displacements since an earlier period, the moments of an exposure, means over periods, contacts, measures
 // for plots and live words, and what has flowed out.
 #pragma once
@@ -12,10 +12,13 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/frame.hpp"
+#include "engine/measure/flow/flowed_out.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/run/driver/agenda.hpp"
+#include "engine/state/contact.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/bed_periods.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -44,8 +47,7 @@ class PictureParts {
 
     // Adds what is beside the moment, and what others() can give. A grain that is missing at an earlier
     // moment gets no displacement or no mean.
-    void add(Frame& frame, const FilmSegment& rule, int periods, Beside beside,
-             const OtherMoments& others) const;
+    void add(Shot& shot, const FilmSegment& rule, int periods, Beside beside, const OtherMoments& others) const;
 
   private:
     // Steps of the moments that displacements, the exposure and the mean need; empty when the picture has no
@@ -53,7 +55,7 @@ class PictureParts {
     std::vector<std::int64_t> earlier(std::int64_t step, int periods) const;
     std::vector<std::int64_t> exposed(std::int64_t step, const FilmSegment& rule, int periods) const;
     std::vector<std::int64_t> averaged(std::int64_t step, const FilmSegment& rule, int periods) const;
-    void add_mean(Frame& frame, const FilmSegment& rule, int periods, const OtherMoments& others) const;
+    void add_mean(Shot& shot, const FilmSegment& rule, int periods, const OtherMoments& others) const;
 
     FilmShows shows_;
     Clock clock_;

@@ -19,7 +19,7 @@ Span SceneRun::span() const {
     return {driver_.plan().clock.time(driver_.first_step()), scene_.run.duration};
 }
 
-std::vector<Shot> SceneRun::shots_of(const Pictures& pictures) const {
+std::vector<Due> SceneRun::shots_of(const Pictures& pictures) const {
     const Plan& plan = driver_.plan();
     return shots_at(pictures.instants, pictures.segments, plan.clock, plan.steps);
 }
@@ -27,7 +27,7 @@ std::vector<Shot> SceneRun::shots_of(const Pictures& pictures) const {
 std::vector<Frame> SceneRun::moments(const Pictures& pictures) const {
     const Clock& clock = driver_.plan().clock;
     std::vector<Frame> moments;
-    for (const Shot& shot : shots_of(pictures)) {
+    for (const Due& shot : shots_of(pictures)) {
         Frame& moment = moments.emplace_back();
         moment.step = shot.step;
         moment.time = clock.time(shot.step);
@@ -48,14 +48,14 @@ void SceneRun::start(const Pictures& pictures) {
     if (driver_.goes_on() && driver_.files()->keeps_film_moments()) read_earlier();
     // An upper limit: if the bed turns out to repeat itself only every few periods, some pictures are left
     // out.
-    count_ = std::count_if(shots_.begin(), shots_.end(), [&](const Shot& shot) {
+    count_ = std::count_if(shots_.begin(), shots_.end(), [&](const Due& shot) {
         return shot.step >= driver_.first_step() && bed_periods_->shows(rule(shot.segment), shot);
     });
 }
 
 FrameWishes SceneRun::wishes() {
     FrameWishes wishes;
-    for (const Shot& shot : shots_) wishes.steps.push_back(shot.step);
+    for (const Due& shot : shots_) wishes.steps.push_back(shot.step);
     wishes.look = [this](const Simulation& simulation) {
         look_at_bed_periods(simulation);
         if (shows_wear(scene_)) look_at_wear(simulation);
@@ -74,7 +74,7 @@ FrameWishes SceneRun::wishes() {
 KeptMoments SceneRun::wanted_moments() const {
     KeptMoments wanted;
     const std::vector<int> multiples = bed_periods_->possible();
-    for (const Shot& shot : shots_)
+    for (const Due& shot : shots_)
         for (const int periods : multiples)
             wanted.want(shot.step, parts_->moments(shot.step, rule(shot.segment), periods));
     return wanted;
@@ -90,9 +90,10 @@ std::optional<Taken> SceneRun::next(const GoOn& go_on) {
     const std::shared_ptr<Frame> frame = driver_.next(go_on);
     if (!frame) return std::nullopt;
     waiting_ = due_at(frame->step);
-    parts_->add(*frame, rule(waiting_.back().segment), bed_periods_->shown(), beside_now(frame->time),
+    Shot shot(std::move(*frame));
+    parts_->add(shot, rule(waiting_.back().segment), bed_periods_->shown(), beside_now(shot.time),
                 [this](std::int64_t step) { return driver_.kept(step); });
-    frame_ = frame;
+    frame_ = std::make_shared<const Shot>(std::move(shot));
     return waiting();
 }
 
@@ -128,29 +129,29 @@ Taken SceneRun::next_earlier() {
         throw UserError(moments.damage().empty()
                             ? moments.path().string() + ": lacks a picture that it has had"
                             : moments.damage().front());
-    Frame frame = moments.grains(index);
-    add_planes(scene_.walls, frame.time, frame.bodies);
-    const auto shot = std::lower_bound(shots_.begin(), shots_.end(), frame.step,
-                                       [](const Shot& one, std::int64_t step) { return one.step < step; });
-    GRAINREEL_CHECK(shot != shots_.end() && shot->step == frame.step);
-    const int periods = scene_.film.periods > 0 ? scene_.film.periods : earlier_->periods.at(frame.step);
-    Beside beside = beside_now(frame.time);
+    Shot shot = moments.grains(index);
+    add_planes(scene_.walls, shot.time, shot.bodies);
+    const auto due = std::lower_bound(shots_.begin(), shots_.end(), shot.step,
+                                       [](const Due& one, std::int64_t step) { return one.step < step; });
+    GRAINREEL_CHECK(due != shots_.end() && due->step == shot.step);
+    const int periods = scene_.film.periods > 0 ? scene_.film.periods : earlier_->periods.at(shot.step);
+    Beside beside = beside_now(shot.time);
     if (beside.measures)
         beside.measure_rows =
             static_cast<std::size_t>(std::upper_bound(earlier_->steps.begin(), earlier_->steps.end(),
-                                                      static_cast<double>(frame.step)) -
+                                                      static_cast<double>(shot.step)) -
                                      earlier_->steps.begin());
-    if (wear_before_) beside.worn = wear_before_->until(frame.time);
-    parts_->add(frame, rule(shot->segment), periods, std::move(beside),
+    if (wear_before_) beside.worn = wear_before_->until(shot.time);
+    parts_->add(shot, rule(due->segment), periods, std::move(beside),
                 [](std::int64_t) { return FramePtr(); });
-    return {std::make_shared<const Frame>(std::move(frame)), shot->segment, periods};
+    return {std::make_shared<const Shot>(std::move(shot)), due->segment, periods};
 }
 
 std::optional<Taken> SceneRun::waiting() {
     if (waiting_.empty()) return std::nullopt;
     const int segment = waiting_.front().segment;
     waiting_.erase(waiting_.begin());
-    FramePtr frame = waiting_.empty() ? std::move(frame_) : frame_;
+    ShotPtr frame = waiting_.empty() ? std::move(frame_) : frame_;
     return Taken{std::move(frame), segment, bed_periods_->shown()};
 }
 
@@ -163,10 +164,10 @@ std::vector<std::string> SceneRun::news() const {
     return news;
 }
 
-std::vector<Shot> SceneRun::due_at(std::int64_t step) const {
-    std::vector<Shot> due;
+std::vector<Due> SceneRun::due_at(std::int64_t step) const {
+    std::vector<Due> due;
     auto shot = std::lower_bound(shots_.begin(), shots_.end(), step,
-                                 [](const Shot& one, std::int64_t wanted) { return one.step < wanted; });
+                                 [](const Due& one, std::int64_t wanted) { return one.step < wanted; });
     for (; shot != shots_.end() && shot->step == step; ++shot)
         if (bed_periods_->shows(rule(shot->segment), *shot)) due.push_back(*shot);
     return due;

@@ -45,12 +45,12 @@ class SceneRun final : public FrameSource {
     bool has_shots(const Pictures& pictures) const { return !shots_of(pictures).empty(); }
 
   private:
-    std::vector<Shot> shots_of(const Pictures& pictures) const;
+    std::vector<Due> shots_of(const Pictures& pictures) const;
     FrameWishes wishes();
     KeptMoments wanted_moments() const;
     std::optional<Taken> waiting();  // the next picture of the frame that was taken last
     // The shots of that step that the film shows, by what is known so far of the bed's periods.
-    std::vector<Shot> due_at(std::int64_t step) const;
+    std::vector<Due> due_at(std::int64_t step) const;
     // What lies beside the frame that the driver has now.
     Beside beside_now(double time) const;
     void read_earlier();
@@ -64,7 +64,7 @@ class SceneRun final : public FrameSource {
     RunDriver& driver_;
     bool keys_wanted_ = false;
     std::vector<FilmSegment> segments_;  // segments of the film
-    std::vector<Shot> shots_;
+    std::vector<Due> shots_;
     std::int64_t count_ = 0;
     std::optional<BedPeriods> bed_periods_;
     std::optional<PictureParts> parts_;
@@ -79,8 +79,8 @@ class SceneRun final : public FrameSource {
         MeasuredPeriods periods;
     };
     std::optional<Earlier> earlier_;
-    FramePtr frame_;             // the frame that was taken last
-    std::vector<Shot> waiting_;  // its pictures that are still to come
+    ShotPtr frame_;             // the frame that was taken last
+    std::vector<Due> waiting_;  // its pictures that are still to come
 };
 
 }  // namespace grainreel

@@ -55,17 +55,17 @@ std::vector<FilmSegment> StoredShots::segments() const {
 }
 
 bool StoredShots::has_all(const Pictures& pictures) const {
-    const std::vector<Shot> shots = shots_of(pictures);
-    return std::all_of(shots.begin(), shots.end(), [&](const Shot& shot) { return has(shot.step); });
+    const std::vector<Due> shots = shots_of(pictures);
+    return std::all_of(shots.begin(), shots.end(), [&](const Due& shot) { return has(shot.step); });
 }
 
 std::int64_t StoredShots::shown(std::int64_t step) const {
     return has(step) ? step : run_.kept().nearest_step(step, wants_touches());
 }
 
-std::vector<Shot> StoredShots::shown_shots(std::int64_t after) const {
-    std::vector<Shot> shots;
-    for (const Shot& shot : film_.shots()) {
+std::vector<Due> StoredShots::shown_shots(std::int64_t after) const {
+    std::vector<Due> shots;
+    for (const Due& shot : film_.shots()) {
         const std::int64_t step = shown(shot.step);
         if (step > (shots.empty() ? after : shots.back().step)) shots.push_back({step, shot.segment});
     }
@@ -98,16 +98,16 @@ std::vector<std::string> StoredShots::news() const {
     return news;
 }
 
-std::vector<Shot> StoredShots::shots_of(const Pictures& pictures) const {
+std::vector<Due> StoredShots::shots_of(const Pictures& pictures) const {
     if (clock().step > 0) return shots_at(pictures.instants, pictures.segments, clock(), film_.last_step());
-    std::vector<Shot> shots;  // shots of a run with one moment
+    std::vector<Due> shots;  // shots of a run with one moment
     for (const Instant& instant : pictures.instants) shots.push_back({film_.last_step(), instant.segment});
     return shots;
 }
 
 std::vector<Frame> StoredShots::moments(const Pictures& pictures) const {
     std::vector<Frame> moments;
-    for (const Shot& shot : shots_of(pictures)) moments.push_back(film_.moment(shown(shot.step)));
+    for (const Due& shot : shots_of(pictures)) moments.push_back(film_.moment(shown(shot.step)));
     return moments;
 }
 
@@ -115,12 +115,12 @@ void StoredShots::start(const Pictures& pictures) {
     start(shots_of(pictures), pictures.segments);
 }
 
-void StoredShots::start(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments) {
+void StoredShots::start(const std::vector<Due>& shots, const std::vector<FilmSegment>& segments) {
     shots_ = shots;
     segments_ = segments;
     next_ = 0;
     kept_ = {};
-    for (Shot& shot : shots_) {
+    for (Due& shot : shots_) {
         shot.step = shown(shot.step);
         const FilmSegment& rule = segments_.at(static_cast<std::size_t>(shot.segment));
         kept_.want(shot.step, parts_.moments(shot.step, rule, film_.periods_at(shot.step)));
@@ -152,20 +152,20 @@ bool StoredShots::keep_moments_until(std::int64_t step, const GoOn& go_on) {
 
 std::optional<Taken> StoredShots::next(const GoOn& go_on) {
     if (!go_on() || next_ == shots_.size()) return std::nullopt;
-    const Shot shot = shots_[next_++];
-    if (!keep_moments_until(shot.step, go_on)) return std::nullopt;
-    std::optional<StoredMoment> moment = take(shot.step, wants_touches(), go_on);
+    const Due due = shots_[next_++];
+    if (!keep_moments_until(due.step, go_on)) return std::nullopt;
+    std::optional<StoredMoment> moment = take(due.step, wants_touches(), go_on);
     if (!moment) return std::nullopt;
-    const int periods = film_.periods_at(shot.step);
-    Frame& frame = moment->frame;
-    parts_.add(frame, segments_.at(static_cast<std::size_t>(shot.segment)), periods,
-               beside(frame.time, std::move(moment->touches)), [&](std::int64_t step) {
+    const int periods = film_.periods_at(due.step);
+    Shot shot(std::move(moment->frame));
+    parts_.add(shot, segments_.at(static_cast<std::size_t>(due.segment)), periods,
+               beside(shot.time, std::move(moment->touches)), [&](std::int64_t step) {
                    FramePtr kept = kept_.at(step);
                    return kept ? kept : earlier(step);
                });
-    const bool again = next_ < shots_.size() && shots_[next_].step == shot.step;
-    if (!again) kept_.done_with(shot.step);
-    return Taken{std::make_shared<const Frame>(std::move(frame)), shot.segment, periods};
+    const bool again = next_ < shots_.size() && shots_[next_].step == due.step;
+    if (!again) kept_.done_with(due.step);
+    return Taken{std::make_shared<const Shot>(std::move(shot)), due.segment, periods};
 }
 
 // A moment of the trajectory, for displacements; null where there is none at that step.

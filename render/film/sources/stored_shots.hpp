@@ -46,7 +46,7 @@ class StoredShots final : public FrameSource {
     // The step that is shown in a picture of `step`.
     std::int64_t shown(std::int64_t step) const;
     // The film's shots after a step, each with the step that is shown. Each step is shown once.
-    std::vector<Shot> shown_shots(std::int64_t after = -1) const;
+    std::vector<Due> shown_shots(std::int64_t after = -1) const;
     // Compares a replay with a kept moment (StoredRun).
     void prove(std::int64_t step) {
         run_.prove(step, [](double) { return true; });
@@ -64,7 +64,7 @@ class StoredShots final : public FrameSource {
     std::vector<Frame> moments(const Pictures& pictures) const override;
     void start(const Pictures& pictures) override;
     // Starts with shots by their steps. Each step is shown itself, or by the nearest kept one.
-    void start(const std::vector<Shot>& shots, const std::vector<FilmSegment>& segments);
+    void start(const std::vector<Due>& shots, const std::vector<FilmSegment>& segments);
     std::optional<Taken> next(const GoOn& go_on) override;
     std::vector<std::string> news() const override;
 
@@ -72,7 +72,7 @@ class StoredShots final : public FrameSource {
     FramePtr grains(std::int64_t step, const GoOn& go_on);
 
   private:
-    std::vector<Shot> shots_of(const Pictures& pictures) const;
+    std::vector<Due> shots_of(const Pictures& pictures) const;
     bool wants_touches() const { return needs_touches(scene_.film.shows); }
     // Takes the moment of a step; empty when told to stop.
     std::optional<StoredMoment> take(std::int64_t step, bool touches, const GoOn& go_on);
@@ -88,7 +88,7 @@ class StoredShots final : public FrameSource {
     PictureParts parts_;
     FilmSchedule film_;
     ReplayWatcher watcher_;
-    std::vector<Shot> shots_;
+    std::vector<Due> shots_;
     std::vector<FilmSegment> segments_;
     KeptMoments kept_;
     std::set<std::int64_t> wanted_;  // steps whose moments later pictures need

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "render/page/embed.hpp"
+#include "render/picture/base/shot.hpp"
 
 namespace grainreel {
 
@@ -75,7 +76,7 @@ class BedWriter {
         for (std::size_t k = 0; k < chosen.size(); ++k) {
             go_on_or_stop(progress_, static_cast<double>(k + 1) / static_cast<double>(chosen.size()));
             const bool is_key = std::binary_search(keys.begin(), keys.end(), chosen[k]);
-            Frame frame = run_.grains(chosen[k]);
+            Shot frame = run_.grains(chosen[k]);
             const bool for_film = contacts_.film != nullptr && contacts_.film->wants_touches();
             const auto touches = touches_of(chosen[k], is_key || for_film || frame.contact_number.empty());
             add(frame, touches);
@@ -153,7 +154,7 @@ class BedWriter {
         if (told || touches) ++bed_.counted;
     }
 
-    void add_film_colours(std::size_t index, Frame& frame, const std::optional<std::vector<Touch>>& touches) {
+    void add_film_colours(std::size_t index, Shot& frame, const std::optional<std::vector<Touch>>& touches) {
         const std::size_t begin = bytes_.size();
         bytes_.resize(begin + kept_.size(), 0);
         const std::vector<std::uint8_t> colours = contacts_.film->of(index, frame, touches);

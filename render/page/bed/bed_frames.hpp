@@ -18,6 +18,7 @@
 
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
+#include "engine/state/contact.hpp"
 #include "render/page/bed/film_colours.hpp"
 #include "render/page/embed.hpp"
 

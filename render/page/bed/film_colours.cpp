@@ -21,7 +21,7 @@ FilmColours::FilmColours(const FilmedScene& scene, const FrameArchive& run, cons
 
 // Adds the displacement since the moment run_.periods() periods of the drive earlier. Returns false when the
 // run kept no such moment.
-bool FilmColours::add_displacement(std::size_t index, Frame& frame) const {
+bool FilmColours::add_displacement(std::size_t index, Shot& frame) const {
     const Frame& now = run_.moments()[index];
     if (frequency_ <= 0 || clock_.step <= 0) return false;
     const int periods = run_.periods();
@@ -31,7 +31,7 @@ bool FilmColours::add_displacement(std::size_t index, Frame& frame) const {
     if (std::abs(run_.moments()[before].time - time) >
         std::max(some_periods / frequency_, some_steps * clock_.step))
         return false;
-    set_displacement(frame, run_.grains(before), periods, depth_);
+    frame.displacement = displacement_since(run_.grains(before), frame, periods, depth_);
     return true;
 }
 
@@ -43,7 +43,7 @@ std::uint8_t FilmColours::byte_of(double value) const {
     return static_cast<std::uint8_t>(1 + std::lround(254 * share));
 }
 
-std::vector<std::uint8_t> FilmColours::of(std::size_t index, Frame& frame,
+std::vector<std::uint8_t> FilmColours::of(std::size_t index, Shot& frame,
                                           const std::optional<std::vector<Touch>>& touches) {
     std::vector<std::uint8_t> bytes(frame.size(), 0);
     const bool of_period = by_ == GrainValue::displacement || by_ == GrainValue::rise;

@@ -7,7 +7,9 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/files/frames/frame_archive.hpp"
+#include "engine/state/contact.hpp"
 #include "render/picture/base/colour_scale.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -24,13 +26,13 @@ class FilmColours {
     // Colours of the grains at a moment of the run, in the frame's order: 0 when the quantity is not known,
     // else 1 to 255 from the low end of the film's range to its high end. If the film's scale has bands, each
     // value counts as the middle of its band. touches: those of the moment, if they are known.
-    std::vector<std::uint8_t> of(std::size_t index, Frame& frame,
+    std::vector<std::uint8_t> of(std::size_t index, Shot& frame,
                                  const std::optional<std::vector<Touch>>& touches);
 
     bool wants_touches() const { return by_ == GrainValue::coordination || by_ == GrainValue::contact_force; }
 
   private:
-    bool add_displacement(std::size_t index, Frame& frame) const;
+    bool add_displacement(std::size_t index, Shot& frame) const;
     std::uint8_t byte_of(double value) const;
 
     const FrameArchive& run_;

@@ -278,8 +278,7 @@ std::vector<float> halo_in(cairo_surface_t* from, const Rectangle& part, const S
             if (alpha == 0) continue;
             for (int j = std::max(y - r, part.y); j <= std::min(y + r, part.y + part.height - 1); ++j)
                 for (int i = std::max(x - r, part.x); i <= std::min(x + r, part.x + part.width - 1); ++i) {
-                    const float strength =
-                        stamp.strength[static_cast<std::size_t>((j - y + r) * (2 * r + 1) + (i - x + r))];
+                    const float strength = stamp.strength[(j - y + r) * (2 * r + 1) + (i - x + r)];
                     float& at = halo[static_cast<std::size_t>(j - part.y) * part.width + (i - part.x)];
                     at = std::max(at, alpha * strength);
                 }

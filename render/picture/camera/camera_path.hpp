@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/camera/framing.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -95,18 +95,19 @@ class Exaggeration {
   public:
     explicit Exaggeration(double factor) : factor_(factor) {}
 
-    // The frame as it is drawn. It is valid until the next call.
-    const Frame& shown(const Frame& frame) {
+    // The shot as it is drawn. It is valid until the next call, or as long as the shot that was given.
+    const Shot& shown(const Shot& frame) {
         if (factor_ == 1) return frame;
         shown_ = frame;
         for (Vec3& position : shown_.position) position += (factor_ - 1) * frame.container().place;
         for (BodyPose& body : shown_.bodies) body.place *= factor_;
         return shown_;
     }
+    const Shot& shown(Shot&&) = delete;  // it would not outlive the call
 
   private:
     const double factor_;
-    Frame shown_;
+    Shot shown_;
 };
 
 }  // namespace grainreel

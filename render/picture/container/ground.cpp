@@ -229,10 +229,8 @@ void Ground::darken() {
     int left = kSide, right = 0, low = kSide, high = 0;
     for (int j = 0; j < kSide; ++j)
         for (int i = 0; i < kSide; ++i) {
-            const float dark = 255 * strength_ * rim_[static_cast<std::size_t>(i)] *
-                               rim_[static_cast<std::size_t>(j)] *
-                               map_.cells()[static_cast<std::size_t>(j * kSide + i)];
-            dark_[static_cast<std::size_t>((j + 1) * kStride + i + 1)] = dark;
+            const float dark = 255 * strength_ * rim_[i] * rim_[j] * map_.cells()[j * kSide + i];
+            dark_[(j + 1) * kStride + i + 1] = dark;
             if (dark < kSeen) continue;
             left = std::min(left, i), right = std::max(right, i + 1);
             low = std::min(low, j), high = std::max(high, j + 1);

@@ -52,11 +52,11 @@ ShownGrains ShownGrains::beside_cut(const FilmedScene& scene) {
     return shown;
 }
 
-const Frame& ShownGrains::of(const Frame& frame) {
+const Shot& ShownGrains::of(const Shot& frame) {
     if (!any()) return frame;
     const std::vector<HalfSpace> halves = kept_by_cut(cut_, frame);
     const auto is_kept = [&](std::size_t i) {
-        if (!left_out_.empty() && left_out_[static_cast<std::size_t>(frame.species[i])]) return false;
+        if (!left_out_.empty() && left_out_[frame.species[i]]) return false;
         if (!only_.empty() && !std::binary_search(only_.begin(), only_.end(), frame.id[i])) return false;
         return std::all_of(halves.begin(), halves.end(), [&](const HalfSpace& half) {
             return half.normal.dot(frame.position[i]) - half.distance > -frame.radius[i];
@@ -109,7 +109,7 @@ double Quantities::start_height_of(std::int32_t id) const {
 }
 
 // Contacts may name grains that the frame lacks.
-void Quantities::count_touches(const Frame& frame, bool forces) {
+void Quantities::count_touches(const Shot& frame, bool forces) {
     values_.assign(frame.size(), 0);
     const auto add = [&](std::int32_t id, double force) {
         if (id < 0) return;  // a wall
@@ -121,7 +121,7 @@ void Quantities::count_touches(const Frame& frame, bool forces) {
     }
 }
 
-const std::vector<double>& Quantities::of(const Frame& frame) {
+const std::vector<double>& Quantities::of(const Shot& frame) {
     if (start_height_.empty()) start_from(frame);
     if (by_ == GrainValue::coordination || by_ == GrainValue::contact_force) {
         count_touches(frame, by_ == GrainValue::contact_force);
@@ -149,7 +149,7 @@ const std::vector<double>& Quantities::of(const Frame& frame) {
                 values_[i] = frame.spin[i].norm();
                 break;
             case GrainValue::kinetic_energy:
-                values_[i] = kinetic_energy(frame, i, density_[static_cast<std::size_t>(frame.species[i])]);
+                values_[i] = kinetic_energy(frame, i, density_[frame.species[i]]);
                 break;
             default:
                 break;
@@ -201,7 +201,7 @@ Albedo GrainColours::of_value(double value) const {
     return steps_[static_cast<std::size_t>(std::clamp(step, 0.0, count - 1))];
 }
 
-const std::vector<Albedo>& GrainColours::of(const Frame& frame) {
+const std::vector<Albedo>& GrainColours::of(const Shot& frame) {
     colours_.resize(frame.size());
     if (by_species_) {
         for (std::size_t i = 0; i < frame.size(); ++i) {

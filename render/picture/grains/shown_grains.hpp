@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "render/picture/base/colour_scale.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -35,7 +35,8 @@ class ShownGrains {
     static ShownGrains beside_cut(const FilmedScene& scene);
 
     // The frame itself when nothing is left out, otherwise a copy that the next call overwrites.
-    const Frame& of(const Frame& frame);
+    const Shot& of(const Shot& frame);
+    const Shot& of(Shot&&) = delete;  // it would not outlive the call
     // The index that a grain of the last of() has in the frame that was given to it.
     std::size_t place(std::size_t grain) const { return any() ? kept_[grain] : grain; }
 
@@ -46,7 +47,7 @@ class ShownGrains {
     std::vector<std::int32_t> only_;  // ids; empty: all
     FilmCut cut_;                     // the cut that leaves grains out
     std::vector<std::size_t> kept_;
-    Frame shown_;
+    Shot shown_;
 };
 
 // The quantity of each grain that its colour stands for.
@@ -61,11 +62,11 @@ class Quantities {
     // SI: the value of each grain, in the frame's order. It is NaN where it is not known: the start height of
     // a grain that was not there at the start, and displacements before a period has passed. It is NaN for
     // all grains if they are coloured by species.
-    const std::vector<double>& of(const Frame& frame);
+    const std::vector<double>& of(const Shot& frame);
 
   private:
     double start_height_of(std::int32_t id) const;  // m; NaN when the grain was not there
-    void count_touches(const Frame& frame, bool forces);
+    void count_touches(const Shot& frame, bool forces);
 
     const GrainValue by_;
     std::vector<double> density_;         // kg/m3, by species
@@ -90,7 +91,7 @@ class GrainColours {
     void start_from(const Frame& frame) { quantities_.start_from(frame); }
 
     // The albedo of each grain, in the frame's order.
-    const std::vector<Albedo>& of(const Frame& frame);
+    const std::vector<Albedo>& of(const Shot& frame);
     // How many of the grains that it has coloured by a quantity lay beyond the range.
     const ClippedCount& clipped() const { return clipped_; }
 

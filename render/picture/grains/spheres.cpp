@@ -22,7 +22,7 @@ GluedSpheres::GluedSpheres(const FilmedScene& scene) {
     const std::vector<Face> faces = container_faces(scene.container, scene.drive);
     const GluedGrains glued = glue_grains(scene, faces);
     for (std::size_t g = 0; g < glued.size(); ++g) {
-        const Face& face = faces[static_cast<std::size_t>(glued.face[g])];
+        const Face& face = faces[glued.face[g]];
         const Vec3 at = glued.centre(g, faces, {});
         const bool plane = face.kind == Face::Kind::plane;
         const Vec3 inward = plane ? face.normal : Vec3(-Vec3(at.x(), at.y(), 0).normalized());
@@ -88,7 +88,7 @@ SpherePainter::SpherePainter(const FilmedScene& scene, int width, int height, Te
     for (const std::size_t species : scene.film.shows.ghosts) painted_[species] = 1;
 }
 
-void SpherePainter::take(const View& view, const Frame& frame) {
+void SpherePainter::take(const View& view, const Shot& frame) {
     sight_ = {view.orthographic, static_cast<float>(view.focal), 0.5f * static_cast<float>(view.port.width),
               0.5f * static_cast<float>(view.port.height)};
     lamp_.up[0] = static_cast<float>(view.right.dot(up_));
@@ -146,7 +146,7 @@ void SpherePainter::mark_painted(const Frame& frame) {
     for (std::size_t i = 0; i < frame.size(); ++i)
         spheres_.painted.push_back(
             not_painted_.empty()
-                ? painted_[static_cast<std::size_t>(frame.species[i])]
+                ? painted_[frame.species[i]]
                 : !std::binary_search(not_painted_.begin(), not_painted_.end(), frame.id[i]));
 }
 

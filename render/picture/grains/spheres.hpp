@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/base/team.hpp"
-#include "engine/frame.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/container/container_drawing.hpp"
 #include "render/picture/grains/shown_grains.hpp"
@@ -65,7 +65,7 @@ class SpherePainter {
 
     // For each frame these are called in this order: take(), find_visible(), find_order(), find_neighbours(),
     // light().
-    void take(const View& view, const Frame& frame);
+    void take(const View& view, const Shot& frame);
     void find_visible(const SolidDepth& solid = {});
     // The projection and the cutting planes of the frame that take() was given.
     const Sight& sight() const { return sight_; }

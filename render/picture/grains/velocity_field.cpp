@@ -34,7 +34,7 @@ FieldOutput picture_fields(const FilmedScene& scene, double width, double finest
     return fields;
 }
 
-FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period) {
+FieldState field_state_of(const FilmedScene& scene, const Shot& frame, bool period) {
     FieldState state;
     if (period && frame.displacement.size() != frame.size()) return state;
     const Vec3 way = way_of_container(scene, frame);
@@ -42,7 +42,7 @@ FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool per
     for (std::size_t i = 0; i < frame.size(); ++i) {
         if (period && frame.displacement[i].hasNaN()) continue;
         const double volume = 4.0 / 3 * pi * std::pow(frame.radius[i], 3);
-        const double density = scene.species[static_cast<std::size_t>(frame.species[i])].density;
+        const double density = scene.species[frame.species[i]].density;
         state.grains.push_back({frame.position[i] - way,
                                 period ? Vec3(frequency * frame.displacement[i]) : frame.velocity[i],
                                 density * volume, volume, frame.species[i], frame.radius[i]});
@@ -56,7 +56,7 @@ VelocityField::VelocityField(const FilmedScene& scene, double width, bool period
       period_(period),
       sums_(scene, picture_fields(scene, width, 0.5 * width), 1) {}
 
-void VelocityField::take(const Frame& frame) {
+void VelocityField::take(const Shot& frame) {
     sums_.clear();
     sums_.add(field_state_of(scene_, frame, period_), 0);
     fields_ = sums_.mean();
@@ -87,8 +87,7 @@ std::optional<Vec3> VelocityField::at(double y, double z) const {
             if (!is_filled(cell)) continue;
             const double beside = right - static_cast<double>(j), above = up - static_cast<double>(k);
             const double weight = (dj ? beside : 1 - beside) * (dk ? above : 1 - above);
-            for (int a = 0; a < 3; ++a)
-                sum[a] += weight * fields_.velocity[static_cast<std::size_t>(a)][cell];
+            for (int a = 0; a < 3; ++a) sum[a] += weight * fields_.velocity[a][cell];
             share += weight;
         }
     if (share < 0.5) return std::nullopt;

@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
-#include "engine/frame.hpp"
 #include "engine/measure/fields/coarse_graining.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -19,14 +19,14 @@ FieldOutput picture_fields(const FilmedScene& scene, double width, double finest
 // The values of a frame that are coarse-grained: places relative to the container, and velocities in the lab.
 // period: velocities are the displacements over the last period, divided by it. Grains that were not there a
 // period before are then left out. All grains are left out while the frame has no displacements.
-FieldState field_state_of(const FilmedScene& scene, const Frame& frame, bool period);
+FieldState field_state_of(const FilmedScene& scene, const Shot& frame, bool period);
 
 class VelocityField {
   public:
     // width: m, the kernel's standard deviation.
     VelocityField(const FilmedScene& scene, double width, bool period);
 
-    void take(const Frame& frame);
+    void take(const Shot& frame);
     // m/s, interpolated between the cells that have at least three grains under the kernel; none where the
     // other cells around the place have more than half of the weight. y, z: m, relative to the container.
     std::optional<Vec3> at(double y, double z) const;

@@ -34,14 +34,14 @@ FieldLayer::FieldLayer(const FilmedScene& scene)
       quantities_(scene, scene.film.shows.colour.by),
       scale_(scene.film.shows.colour) {}
 
-void FieldLayer::gather(const Frame& frame) {
+void FieldLayer::gather(const Shot& frame) {
     for (std::vector<double>* const sums : {&solid_, &mass_, &sum_}) sums->assign(shares_.size(), 0);
     const std::vector<double>& values = quantities_.of(frame);
     const Vec3 way = way_of_container(scene_, frame);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         if (std::isnan(values[i])) continue;
         const double volume = 4.0 / 3 * std::numbers::pi * std::pow(frame.radius[i], 3);
-        const double mass = volume * scene_.species[static_cast<std::size_t>(frame.species[i])].density;
+        const double mass = volume * scene_.species[frame.species[i]].density;
         for (const CellWeight& cell : footprint_.of_point(frame.position[i] - way)) {
             const auto c = static_cast<std::size_t>(cell.cell);
             solid_[c] += cell.weight * volume;
@@ -51,7 +51,7 @@ void FieldLayer::gather(const Frame& frame) {
     }
 }
 
-void FieldLayer::draw(const View& view, const Frame& frame, Shapes& on) {
+void FieldLayer::draw(const View& view, const Shot& frame, Shapes& on) {
     gather(frame);
     const GridAxis &x = grid_.axes[0], &y = grid_.axes[1], &z = grid_.axes[2];
     const Vec3 way = way_of_container(scene_, frame);
@@ -165,7 +165,7 @@ FlowMarks::FlowMarks(const FilmedScene& scene, const Palette& palette)
         streamlines_.emplace(scene_, streamline_kernel(scene), shows.streamlines.period);
 }
 
-void FlowMarks::draw(const View& view, const Frame& frame, Shapes& on) {
+void FlowMarks::draw(const View& view, const Shot& frame, Shapes& on) {
     if (streamlines_) {
         streamlines_->take(frame);
         draw_streamlines(view, frame, on);

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/frame.hpp"
 #include "engine/measure/fields/footprint.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/grains/velocity_field.hpp"
@@ -27,11 +27,11 @@ class FieldLayer {
 
     // See Renderer::start_from().
     void start_from(const Frame& frame) { quantities_.start_from(frame); }
-    void draw(const View& view, const Frame& frame, Shapes& on);
+    void draw(const View& view, const Shot& frame, Shapes& on);
     const ClippedCount& clipped() const { return clipped_; }  // counts cells
 
   private:
-    void gather(const Frame& frame);
+    void gather(const Shot& frame);
 
     const FilmedScene& scene_;
     const FieldGrid grid_;
@@ -70,7 +70,7 @@ double widest_streamline(int picture_height);
 class FlowMarks {
   public:
     FlowMarks(const FilmedScene& scene, const Palette& palette);
-    void draw(const View& view, const Frame& frame, Shapes& on);
+    void draw(const View& view, const Shot& frame, Shapes& on);
 
   private:
     void draw_arrows(const View& view, const Frame& frame, Shapes& on) const;

@@ -97,7 +97,7 @@ constexpr double packing = 0.55;  // solid fraction of the bed, from which its h
 constexpr double face_on = 0.7;   // cosine: walls beyond it face the eye, and forces on them point at the eye
 
 // The vector whose components are three columns of the last row; NaN where there is no such row or column.
-Vec3 last_vector(const Frame& frame, const std::string& name, const std::string& unit) {
+Vec3 last_vector(const Shot& frame, const std::string& name, const std::string& unit) {
     Vec3 vector = Vec3::Constant(std::nan(""));
     const std::vector<std::string>& columns = frame.measures->columns();
     for (int axis = 0; axis < 3; ++axis) {
@@ -151,14 +151,14 @@ WallForceMarks::WallForceMarks(const FilmedScene& scene, const Palette& palette)
     for (std::size_t f = 0; f < faces.size(); ++f) walls_.push_back({faces[f], names.at(f)});
 }
 
-void WallForceMarks::draw(const View& view, const Frame& frame, Shapes& on) const {
+void WallForceMarks::draw(const View& view, const Shot& frame, Shapes& on) const {
     if (!frame.measures || frame.measure_rows == 0) return;
     for (const Wall& wall : walls_) draw_wall(wall, view, frame, on);
 }
 
 // Draws the arrow of one wall. Moments of the container's faces are about the origin of its body, or about a
 // point of the axis where it turns; moments of other faces are about a point of the face.
-void WallForceMarks::draw_wall(const Wall& wall, const View& view, const Frame& frame, Shapes& on) const {
+void WallForceMarks::draw_wall(const Wall& wall, const View& view, const Shot& frame, Shapes& on) const {
     const Vec3 force = last_vector(frame, wall.name + "_force", "N");
     const Vec3 moment = last_vector(frame, wall.name + "_moment", "N.m");
     if (!force.allFinite() || !moment.allFinite()) return;

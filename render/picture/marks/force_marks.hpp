@@ -5,10 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "engine/frame.hpp"
+#include "engine/state/contact.hpp"
 #include "engine/state/container_faces.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -68,14 +69,14 @@ std::optional<Vec3> point_of_action(const Face& wall, const Vec3& force, const V
 class WallForceMarks {
   public:
     WallForceMarks(const FilmedScene& scene, const Palette& palette);
-    void draw(const View& view, const Frame& frame, Shapes& on) const;
+    void draw(const View& view, const Shot& frame, Shapes& on) const;
 
   private:
     struct Wall {
         Face face;
         std::string name;  // the wall's name in the names of columns
     };
-    void draw_wall(const Wall& wall, const View& view, const Frame& frame, Shapes& on) const;
+    void draw_wall(const Wall& wall, const View& view, const Shot& frame, Shapes& on) const;
 
     const FilmedScene& scene_;
     const Palette palette_;

@@ -28,8 +28,7 @@ Trails::Trails(const FilmedScene& scene)
 }
 
 bool Trails::chosen(std::int32_t id, std::int32_t species) const {
-    return species_[static_cast<std::size_t>(species)] ||
-           std::find(grains_.begin(), grains_.end(), id) != grains_.end();
+    return species_[species] || std::find(grains_.begin(), grains_.end(), id) != grains_.end();
 }
 
 void Trails::take(const Frame& frame) {
@@ -105,7 +104,7 @@ void Marks::remember(const Frame& frame) {
     if (scene_.film.shows.trails.wanted()) trails_.take(frame);
 }
 
-void Marks::draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on) {
+void Marks::draw(const View& view, const Shot& frame, const SeenShare& seen, Shapes& on) {
     const FilmShows& look = scene_.film.shows;
     if (field_) field_->draw(view, frame, on);
     if (look.force_chains) draw_chains(view, frame, on);
@@ -122,7 +121,7 @@ void Marks::outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, 
     on.line(points, closed, width, {colour, strength});
 }
 
-void Marks::draw_chains(const View& view, const Frame& frame, Shapes& on) const {
+void Marks::draw_chains(const View& view, const Shot& frame, Shapes& on) const {
     const double widest = widest_line(scene_.film.height), force = widest_force(scene_);
     const double too_far = scene_.container.periodic_depth ? 0.5 * scene_.container.depth
                                                            : std::numeric_limits<double>::infinity();
@@ -152,7 +151,7 @@ void Marks::draw_trails(const View& view, Shapes& on) const {
 
 // Grains chosen by id get rings wherever they are. Grains that a condition chooses get rings only where they
 // are seen: in a bed with many such grains, rings around buried grains would seem to belong to other grains.
-void Marks::draw_rings(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on) {
+void Marks::draw_rings(const View& view, const Shot& frame, const SeenShare& seen, Shapes& on) {
     constexpr double kHidden = 0.02, kPlain = 0.2;  // seen shares between which a ring fades in
     const FilmShows& look = scene_.film.shows;
     for (const std::int32_t id : look.highlighted)

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/marks/field_marks.hpp"
@@ -68,14 +68,14 @@ class Marks {
     // Tells which share of a grain of the frame is seen.
     using SeenShare = std::function<double(std::size_t grain)>;
     // Adds the marks to the shapes that are painted after the grains. Frames come in the order of time.
-    void draw(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on);
+    void draw(const View& view, const Shot& frame, const SeenShare& seen, Shapes& on);
     // How many of the field's cells lie beyond the ends of the colour bar.
     ClippedCount clipped() const { return field_ ? field_->clipped() : ClippedCount(); }
 
   private:
-    void draw_chains(const View& view, const Frame& frame, Shapes& on) const;
+    void draw_chains(const View& view, const Shot& frame, Shapes& on) const;
     void draw_trails(const View& view, Shapes& on) const;
-    void draw_rings(const View& view, const Frame& frame, const SeenShare& seen, Shapes& on);
+    void draw_rings(const View& view, const Shot& frame, const SeenShare& seen, Shapes& on);
     void draw_ring(const View& view, const Vec3& at, double radius, double strength, Shapes& on) const;
     // Draws a line on a wider one of the background's colour, so that it can be seen on any grain.
     void outlined(Shapes& on, const std::vector<Pixel>& points, bool closed, double width,

@@ -47,13 +47,12 @@ std::uint32_t in_the_rest(std::uint32_t pixel, std::uint32_t taken) {
 
 std::uint32_t packed(const std::array<float, 3>& colour, std::uint32_t alpha) {
     std::uint32_t opaque = 0xff000000u;
-    for (int c = 0; c < 3; ++c)
-        opaque |= static_cast<std::uint32_t>(std::lround(colour[static_cast<std::size_t>(c)])) << (8 * c);
+    for (int c = 0; c < 3; ++c) opaque |= static_cast<std::uint32_t>(std::lround(colour[c])) << (8 * c);
     return scaled(opaque, alpha);
 }
 
 void replace_row(Layer& layer, int y, const std::uint32_t* row, int x0, int x1) {
-    Layer::Span& span = layer.spans[static_cast<std::size_t>(y)];
+    Layer::Span& span = layer.spans[y];
     std::uint32_t* out = layer.row(y);
     std::fill(out + span.begin, out + span.end, 0u);
     span = x0 < x1 ? Layer::Span{x0, x1} : Layer::Span{};
@@ -76,7 +75,7 @@ void MeshPainter::draw_solid(const MeshProjection& meshes, const Sight& sight, T
     workers_.resize(static_cast<std::size_t>(team.size()));
     std::atomic<int> next{0};
     team.run([&](int member) {
-        Worker& worker = workers_[static_cast<std::size_t>(member)];
+        Worker& worker = workers_[member];
         const std::size_t room = kBand * stride_;
         if (worker.row.empty()) {
             for (auto& near : worker.near) near.assign(room, kNowhereNear);
@@ -95,7 +94,7 @@ void MeshPainter::draw_solid(const MeshProjection& meshes, const Sight& sight, T
 
 void MeshPainter::draw_solid_band(int band, const MeshProjection& meshes, const Sight& sight,
                                   Worker& worker) {
-    BandState& state = states_[static_cast<std::size_t>(band)];
+    BandState& state = states_[band];
     const int y0 = band * kBand, y1 = std::min(height_, y0 + kBand);
     for (int y = y0; y < y1 && !state.solid.empty(); ++y) {
         std::fill(away_.begin() + static_cast<std::ptrdiff_t>(place(state.solid.x0, y)),
@@ -114,7 +113,7 @@ void MeshPainter::draw_solid_band(int band, const MeshProjection& meshes, const 
     rows.number = number_.data() + place(0, y0);
     rows.stride = stride_;
     rows.first_row = y0;
-    for (const std::uint32_t i : meshes.bands()[static_cast<std::size_t>(band)].solid) {
+    for (const std::uint32_t i : meshes.bands()[band].solid) {
         const ScreenTriangle& t = meshes.solid(i);
         state.solid.take(t.x0, t.x1);
         mesh_kernels().solid(t, rows, y0, y1);
@@ -180,7 +179,7 @@ void MeshPainter::fill(const MeshSection& section, std::uint32_t colour, const M
 void MeshPainter::take_mixed(int y, const MeshRows& rows, const Columns& columns, const Sight& sight,
                              float apart, const Worker& worker, std::vector<Mixed>& mixed) {
     for (int word = columns.x0 / 64; word * 64 < columns.x1; ++word)
-        for (std::uint64_t left = worker.bits[static_cast<std::size_t>(word)]; left; left &= left - 1) {
+        for (std::uint64_t left = worker.bits[word]; left; left &= left - 1) {
             const int x = word * 64 + std::countr_zero(left);
             if (x >= columns.x1) break;
             const std::size_t at = place(x, y - rows.first_row);
@@ -270,7 +269,7 @@ void MeshPainter::bring_forward(int y, const Job& job, Worker& worker, const Col
     const std::uint32_t* behind = behind_.row(y);
     for (int x = worker.edges.next(columns.x0); x < columns.x1; x = worker.edges.next(x + 1)) {
         if (behind[x] == 0 || seen.row(y)[x] != 0) continue;
-        if (away_[place(x, y)] < grain_depth(seen, x, y)) worker.row[static_cast<std::size_t>(x)] = behind[x];
+        if (away_[place(x, y)] < grain_depth(seen, x, y)) worker.row[x] = behind[x];
     }
 }
 
@@ -280,13 +279,13 @@ void MeshPainter::draw_rest(const MeshProjection& meshes, const Sight& sight, co
     std::atomic<int> next{0};
     team.run([&](int member) {
         for (int band; (band = next.fetch_add(1, std::memory_order_relaxed)) < bands();)
-            draw_rest_band(band, job, workers_[static_cast<std::size_t>(member)]);
+            draw_rest_band(band, job, workers_[member]);
     });
 }
 
 void MeshPainter::draw_rest_band(int band, const Job& job, Worker& worker) {
-    BandState& state = states_[static_cast<std::size_t>(band)];
-    const MeshProjection::Band& what = job.meshes.bands()[static_cast<std::size_t>(band)];
+    BandState& state = states_[band];
+    const MeshProjection::Band& what = job.meshes.bands()[band];
     const int y0 = band * kBand, y1 = std::min(height_, y0 + kBand);
     Columns columns = state.solid;
     for (const std::uint32_t i : what.glass) {
@@ -322,7 +321,7 @@ void MeshPainter::draw_rest_band(int band, const Job& job, Worker& worker) {
 void MeshPainter::split_mixed(const Mixed& pixel, const Visibility& seen, Worker& worker) {
     const float grain = grain_depth(seen, pixel.x, pixel.y);
     if (grain == kNothing || pixel.near_away >= grain) return;
-    std::uint32_t& before = worker.row[static_cast<std::size_t>(pixel.x)];
+    std::uint32_t& before = worker.row[pixel.x];
     before = pixel.far_away < grain ? sum_of(pixel.near, pixel.far) : pixel.near;
     const std::uint32_t left = pixel.far_away < grain ? 0 : pixel.far;
     behind_.row(pixel.y)[pixel.x] = in_the_rest(left, before >> 24);
@@ -335,12 +334,12 @@ void MeshPainter::lay_glass_and_lines(int y, const Columns& columns, const Inks&
     mesh_kernels().tint(glass + columns.x0, inks.glass.data(), columns.x1 - columns.x0,
                         worker.row.data() + columns.x0);
     std::fill(glass + columns.x0, glass + columns.x1, 0.0f);
-    Layer::Span& span = behind_.spans[static_cast<std::size_t>(y)];
+    Layer::Span& span = behind_.spans[y];
     std::uint32_t* below = behind_.row(y);
     std::uint8_t *before = worker.line_before.data() + first, *behind = worker.line_behind.data() + first;
     for (int x = columns.x0; x < columns.x1; ++x) {
         if (before[x] != 0) {
-            std::uint32_t& pixel = worker.row[static_cast<std::size_t>(x)];
+            std::uint32_t& pixel = worker.row[x];
             pixel = over(packed(inks.line, before[x]), pixel);
             before[x] = 0;
         }

@@ -84,13 +84,9 @@ void MeshProjection::take(const View& view, const Sight& sight, const Cut& cut,
 MeshProjection::Seen MeshProjection::look_at(const MeshShape& shape, std::size_t t) const {
     const Eigen::Vector3f normal = turn_ * shape.normals[t].cast<float>();
     const auto& [a, b, c] = shape.triangles[t];
-    const Eigen::Vector3f middle =
-        (vertices_[static_cast<std::size_t>(a)] + vertices_[static_cast<std::size_t>(b)] +
-         vertices_[static_cast<std::size_t>(c)]) /
-        3;
+    const Eigen::Vector3f middle = (vertices_[a] + vertices_[b] + vertices_[c]) / 3;
     // A corner decides the side, so that it changes just where the triangle is edge-on.
-    const float height =
-        sight_.orthographic ? normal.z() : normal.dot(vertices_[static_cast<std::size_t>(a)]);
+    const float height = sight_.orthographic ? normal.z() : normal.dot(vertices_[a]);
     const float length = sight_.orthographic ? 1 : std::max(middle.norm(), 1e-30f);
     const bool front = height < 0;
     const MeshShape::Sides& sides = shape.sides[t];
@@ -111,13 +107,13 @@ void MeshProjection::take_mesh(const DrawnMesh& mesh, Team& team) {
         const auto [begin, end] = TeamMember{team, member}.part_of(shape.triangles.size());
         for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
             seen_[t] = look_at(shape, t);
-            add_triangle(mesh, t, shares[static_cast<std::size_t>(member)]);
+            add_triangle(mesh, t, shares[member]);
         }
     });
     team.run([&](int member) {
         const auto [begin, end] = TeamMember{team, member}.part_of(shape.edges.size());
         for (auto e = static_cast<std::size_t>(begin); e < static_cast<std::size_t>(end); ++e)
-            add_edge(shape, shape.edges[e], shares[static_cast<std::size_t>(member)]);
+            add_edge(shape, shape.edges[e], shares[member]);
     });
     join(shares);
     add_sections(shares);
@@ -168,9 +164,7 @@ void MeshProjection::add_section_line(int half, const std::array<Eigen::Vector3f
     line.glass = seen.face == Face::glass && !material;
     line.strength = kSolidLine;
     share.lines.push_back(line);
-    if (material)
-        share.sections[static_cast<std::size_t>(half)].push_back(
-            {line.from.x(), line.from.y(), line.to.x(), line.to.y()});
+    if (material) share.sections[half].push_back({line.from.x(), line.from.y(), line.to.x(), line.to.y()});
 }
 
 // Adds the sections. They are seen from the side that the cut takes away.
@@ -178,7 +172,7 @@ void MeshProjection::add_sections(std::vector<Share>& shares) {
     for (int i = sight_.orthographic ? 0 : 1; i < space_.count; ++i) {
         MeshSection section;
         for (Share& share : shares) {
-            const auto& edges = share.sections[static_cast<std::size_t>(i)];
+            const auto& edges = share.sections[i];
             section.edges.insert(section.edges.end(), edges.begin(), edges.end());
         }
         const Eigen::Vector3f normal = -space_.half[i].normal;
@@ -206,7 +200,7 @@ void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen&
                                Share& share) {
     for (int k = 1; k + 1 < piece.count; ++k) {
         ScreenTriangle triangle;
-        if (!set_up(sight_, port_, piece.corner[0], piece.corner[static_cast<std::size_t>(k)],
+        if (!set_up(sight_, port_, piece.corner[0], piece.corner[k],
                     piece.corner[static_cast<std::size_t>(k) + 1], triangle))
             continue;
         if (seen.face == Face::glass) {
@@ -224,8 +218,7 @@ void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen&
         }
         const Eigen::Vector3f normal =
             (seen.front ? 1.0f : -1.0f) * (turn_ * mesh.shape->normals[t].cast<float>());
-        share.planes.push_back(
-            {normal, normal.dot(vertices_[static_cast<std::size_t>(mesh.shape->triangles[t][0])])});
+        share.planes.push_back({normal, normal.dot(vertices_[mesh.shape->triangles[t][0]])});
         triangle.number = static_cast<std::uint32_t>(share.planes.size());
         share.solid.push_back(triangle);
     }
@@ -236,15 +229,14 @@ float MeshProjection::towards_eye(const MeshShape& shape, std::int32_t triangle,
     const auto t = static_cast<std::size_t>(triangle);
     const Eigen::Vector3f normal = turn_ * shape.corners[t][corner];
     if (sight_.orthographic) return -normal.z();
-    return -normal.dot(vertices_[static_cast<std::size_t>(shape.triangles[t][corner])]);
+    return -normal.dot(vertices_[shape.triangles[t][corner]]);
 }
 
 // Whether the smooth surface turns away from the eye at an edge, and not only single triangles of it. The
 // outline of a twisted surface goes through its triangles and not along their edges, so it has no line.
 bool MeshProjection::is_outline(const MeshShape& shape, const MeshShape::Edge& edge) const {
     if (edge.right < 0 || edge.rippled) return false;
-    if (seen_[static_cast<std::size_t>(edge.left)].front == seen_[static_cast<std::size_t>(edge.right)].front)
-        return false;
+    if (seen_[edge.left].front == seen_[edge.right].front) return false;
     return towards_eye(shape, edge.left, edge.left_corner) *
                towards_eye(shape, edge.right, edge.right_corner) <
            0;
@@ -252,8 +244,8 @@ bool MeshProjection::is_outline(const MeshShape& shape, const MeshShape::Edge& e
 
 // Adds feature edges wherever a face at them is seen, and other edges where they are outlines.
 void MeshProjection::add_edge(const MeshShape& shape, const MeshShape::Edge& edge, Share& share) const {
-    const Seen& left = seen_[static_cast<std::size_t>(edge.left)];
-    const Seen* right = edge.right >= 0 ? &seen_[static_cast<std::size_t>(edge.right)] : nullptr;
+    const Seen& left = seen_[edge.left];
+    const Seen* right = edge.right >= 0 ? &seen_[edge.right] : nullptr;
     if (left.face == Face::unseen && (!right || right->face == Face::unseen)) return;
     if (!edge.feature && !is_outline(shape, edge)) return;
     float turned = 0;  // cosine of the solid face that faces the eye most directly
@@ -264,9 +256,7 @@ void MeshProjection::add_edge(const MeshShape& shape, const MeshShape::Edge& edg
         turned = std::max(turned, one->cosine);
     }
     ScreenLine line{};
-    if (!set_up(sight_, space_, vertices_[static_cast<std::size_t>(edge.from)],
-                vertices_[static_cast<std::size_t>(edge.to)], -1, line))
-        return;
+    if (!set_up(sight_, space_, vertices_[edge.from], vertices_[edge.to], -1, line)) return;
     line.glass = glass;
     line.half_width = 0.5f * paints_.pen * (edge.feature ? kFeatureWidth : kOutlineWidth);
     line.strength = edge.feature
@@ -280,7 +270,7 @@ void MeshProjection::sort_into_bands() {
     for (Band& band : bands_) band.solid.clear(), band.glass.clear(), band.lines.clear();
     const auto put = [&](std::vector<std::uint32_t> Band::*into, std::size_t i, int y0, int y1) {
         for (int band = y0 / kBand; band * kBand < y1; ++band)
-            (bands_[static_cast<std::size_t>(band)].*into).push_back(static_cast<std::uint32_t>(i));
+            (bands_[band].*into).push_back(static_cast<std::uint32_t>(i));
     };
     for (std::size_t i = 0; i < solid_.size(); ++i) put(&Band::solid, i, solid_[i].y0, solid_[i].y1);
     for (std::size_t i = 0; i < glass_.size(); ++i) put(&Band::glass, i, glass_[i].y0, glass_[i].y1);

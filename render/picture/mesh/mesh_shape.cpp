@@ -53,7 +53,7 @@ double angle_at(const Surface& surface, std::int32_t t, int corner) {
 
 using EdgeFlags = std::vector<std::array<bool, 3>>;  // one for each triangle's edges
 bool flag_at(const EdgeFlags& flags, std::int32_t t, int e) {
-    return flags[static_cast<std::size_t>(t)][static_cast<std::size_t>(e)];
+    return flags[t][e];
 }
 
 // Adds the normals of the triangles around a corner, each weighted by its angle there. It goes from `start`
@@ -62,14 +62,13 @@ bool go_round(const Surface& surface, const EdgeFlags& features, std::int32_t st
               Vec3& sum) {
     constexpr int kMost = 1000;  // more triangles meet at a vertex only where a mesh is no surface
     const TriangleMesh& mesh = surface.mesh();
-    const std::int32_t vertex =
-        mesh.triangles[static_cast<std::size_t>(start)][static_cast<std::size_t>(corner)];
+    const std::int32_t vertex = mesh.triangles[start][corner];
     std::int32_t t = start;
     for (int i = 0; i < kMost && !flag_at(features, t, e); ++i) {
         const std::int32_t from = t;
         t = surface.neighbour(t, e).triangle;
         if (t == start) return true;
-        const TriangleMesh::Triangle& corners = mesh.triangles[static_cast<std::size_t>(t)];
+        const TriangleMesh::Triangle& corners = mesh.triangles[t];
         const auto k = static_cast<int>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
         if (k == 3) return false;
         sum += angle_at(surface, t, k) * surface.normal(t);
@@ -88,8 +87,7 @@ void add_corner_normals(const Surface& surface, const EdgeFlags& features, MeshS
             if (!go_round(surface, features, t, k, k, sum))
                 go_round(surface, features, t, k, (k + 2) % 3, sum);
             const double length = sum.norm();
-            shape.corners[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)] =
-                (length > 0 ? Vec3(sum / length) : surface.normal(t)).cast<float>();
+            shape.corners[t][k] = (length > 0 ? Vec3(sum / length) : surface.normal(t)).cast<float>();
         }
 }
 
@@ -99,9 +97,8 @@ EdgeFlags feature_edges(const Surface& surface, double edge_angle) {
     for (std::int32_t t = 0; t < surface.size(); ++t)
         for (int e = 0; e < 3; ++e) {
             const Neighbour& beyond = surface.neighbour(t, e);
-            features[static_cast<std::size_t>(t)][static_cast<std::size_t>(e)] =
-                beyond.triangle < 0 || beyond.flips ||
-                (turn_of(surface, t, beyond) > edge_angle && !is_ripple(surface, t, e));
+            features[t][e] = beyond.triangle < 0 || beyond.flips ||
+                             (turn_of(surface, t, beyond) > edge_angle && !is_ripple(surface, t, e));
         }
     return features;
 }
@@ -111,7 +108,7 @@ std::vector<char> rippled_triangles(const Surface& surface) {
     std::vector<char> rippled(static_cast<std::size_t>(surface.size()), 0);
     for (std::int32_t t = 0; t < surface.size(); ++t)
         for (int e = 0; e < 3; ++e)
-            if (is_ripple(surface, t, e)) rippled[static_cast<std::size_t>(t)] = 1;
+            if (is_ripple(surface, t, e)) rippled[t] = 1;
     return rippled;
 }
 
@@ -121,14 +118,11 @@ void add_edges(const Surface& surface, const EdgeFlags& features, MeshShape& sha
         for (int e = 0; e < 3; ++e) {
             const std::int32_t right = surface.neighbour(t, e).triangle;
             if (right >= 0 && right < t) continue;
-            const TriangleMesh::Triangle& corners = shape.triangles[static_cast<std::size_t>(t)];
-            const std::int32_t from = corners[static_cast<std::size_t>(e)],
-                               to = corners[static_cast<std::size_t>((e + 1) % 3)];
+            const TriangleMesh::Triangle& corners = shape.triangles[t];
+            const std::int32_t from = corners[e], to = corners[(e + 1) % 3];
             const std::uint8_t third =
-                right < 0 ? std::uint8_t{0}
-                          : third_corner(shape.triangles[static_cast<std::size_t>(right)], from, to);
-            const bool rippled = ripples[static_cast<std::size_t>(t)] ||
-                                 (right >= 0 && ripples[static_cast<std::size_t>(right)]);
+                right < 0 ? std::uint8_t{0} : third_corner(shape.triangles[right], from, to);
+            const bool rippled = ripples[t] || (right >= 0 && ripples[right]);
             shape.edges.push_back({from, to, t, right, static_cast<std::uint8_t>((e + 2) % 3), third,
                                    flag_at(features, t, e), rippled});
         }
@@ -146,17 +140,17 @@ std::vector<std::int32_t> smooth_patches(const Surface& surface, double edge_ang
     std::vector<std::int32_t> waiting;
     std::int32_t count = 0;
     for (std::int32_t start = 0; start < surface.size(); ++start) {
-        if (patch[static_cast<std::size_t>(start)] >= 0) continue;
-        patch[static_cast<std::size_t>(start)] = count;
+        if (patch[start] >= 0) continue;
+        patch[start] = count;
         waiting.push_back(start);
         while (!waiting.empty()) {
             const std::int32_t t = waiting.back();
             waiting.pop_back();
             for (int e = 0; e < 3; ++e) {
                 const Neighbour& beyond = surface.neighbour(t, e);
-                if (beyond.triangle < 0 || patch[static_cast<std::size_t>(beyond.triangle)] >= 0) continue;
+                if (beyond.triangle < 0 || patch[beyond.triangle] >= 0) continue;
                 if (beyond.flips || turn_of(surface, t, beyond) > edge_angle) continue;
-                patch[static_cast<std::size_t>(beyond.triangle)] = count;
+                patch[beyond.triangle] = count;
                 waiting.push_back(beyond.triangle);
             }
         }

@@ -35,8 +35,7 @@ std::array<Vec3, kRays> make_directions() {
     const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
     for (int i = 0; i < kRays; ++i) {
         const double square = (i + 0.5) / kRays, out = std::sqrt(square);
-        directions[static_cast<std::size_t>(i)] = {out * std::cos(golden * i), out * std::sin(golden * i),
-                                                   std::sqrt(1 - square)};
+        directions[i] = {out * std::cos(golden * i), out * std::sin(golden * i), std::sqrt(1 - square)};
     }
     return directions;
 }
@@ -115,15 +114,13 @@ class SideFinder {
             patch_seen_[p].area += surface_.area(t);
             for (int e = 0; e < 3; ++e)
                 if (surface_.facts().open_edges > 0 && surface_.neighbour(t, e).triangle < 0)
-                    part_closed_[static_cast<std::size_t>(part[at])] = 0;
+                    part_closed_[part[at]] = 0;
         }
         patches_.resize(part_seen_.size());
         for (std::size_t p = 0; p < members_.size(); ++p) patches_[part_of_patch_[p]].push_back(p);
     }
 
-    std::size_t part_of(std::int32_t t) const {
-        return part_of_patch_[static_cast<std::size_t>(patch_[static_cast<std::size_t>(t)])];
-    }
+    std::size_t part_of(std::int32_t t) const { return part_of_patch_[patch_[t]]; }
 
     Vec3 middle(std::int32_t t) const {
         return (surface_.corner(t, 0) + surface_.corner(t, 1) + surface_.corner(t, 2)) / 3;
@@ -212,9 +209,7 @@ class SideFinder {
     }
 
     void settle(std::size_t part, Face front, Face back) {
-        for_triangles(part, [&](std::size_t, std::int32_t t) {
-            sides_[static_cast<std::size_t>(t)] = {front, back};
-        });
+        for_triangles(part, [&](std::size_t, std::int32_t t) { sides_[t] = {front, back}; });
     }
     // Settles a closed part. out, in: the looks of its outer side, which can be seen, and of its inner side.
     void settle_closed(std::size_t part, Face out, Face in) {
@@ -237,7 +232,7 @@ class SideFinder {
             if (p != last) seen = !is_inner(p) && is_backed(p) ? Face::glass : Face::solid;
             last = p;
             const bool front = visible_front_[part];
-            sides_[static_cast<std::size_t>(t)] = {front ? seen : Face::unseen, front ? Face::unseen : seen};
+            sides_[t] = {front ? seen : Face::unseen, front ? Face::unseen : seen};
         });
     }
 
@@ -252,8 +247,7 @@ class SideFinder {
             const double side = visible_front_[part_of_patch_[patch]] ? 1 : -1;
             const Vec3 normal = side * surface_.normal(t);
             const auto hit = surface_.first_hit(middle(t) - small_ * normal, -normal);
-            if (hit)
-                backed += is_inner(static_cast<std::size_t>(patch_[static_cast<std::size_t>(hit->triangle)]));
+            if (hit) backed += is_inner(static_cast<std::size_t>(patch_[hit->triangle]));
         }
         return 2 * backed >= places;
     }

@@ -51,7 +51,7 @@ SceneMeshes::SceneMeshes(const FilmedScene& scene)
     colours_.resize(drawn_.size());
 }
 
-void SceneMeshes::colour_by(const Frame& frame) {
+void SceneMeshes::colour_by(const Shot& frame) {
     constexpr std::array<float, 3> as_walls_look{-1, -1, -1};
     if (!scale_) return;
     for (std::size_t m = 0; m < drawn_.size(); ++m) {

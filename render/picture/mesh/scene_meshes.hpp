@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/mesh/mesh_painter.hpp"
 #include "render/picture/mesh/mesh_projection.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -27,7 +27,7 @@ class SceneMeshes {
 
     bool any() const { return !drawn_.empty(); }
     // Colours the meshes by the pressure or the wear of this frame, if the film asks for it.
-    void colour_by(const Frame& frame);
+    void colour_by(const Shot& frame);
     // How many of the triangles that it has coloured lay beyond the range.
     const ClippedCount& clipped() const { return clipped_; }
     // The meshes where they are in a frame.

@@ -75,14 +75,13 @@ bool clip(const DrawnSpace::Half& half, Piece& piece, std::array<Eigen::Vector3f
         const LitCorner &a = piece.corner[i], &b = piece.corner[j];
         const bool keeps_a = half.height(a.at) >= 0, keeps_b = half.height(b.at) >= 0;
         const auto add = [&](const LitCorner& corner) {
-            if (left.count < static_cast<int>(left.corner.size()))
-                left.corner[static_cast<std::size_t>(left.count++)] = corner;
+            if (left.count < static_cast<int>(left.corner.size())) left.corner[left.count++] = corner;
         };
         if (keeps_a) add(a);
         if (keeps_a == keeps_b) continue;
         const LitCorner there = crossing(half, a, b);
         add(there);
-        if (section && crossed < 2) (*section)[static_cast<std::size_t>(crossed)] = there.at;
+        if (section && crossed < 2) (*section)[crossed] = there.at;
         ++crossed;
     }
     piece = left;

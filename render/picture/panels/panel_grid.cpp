@@ -119,7 +119,7 @@ Planned grid(const std::vector<Panel>& panels, const Film& film, const WordHeigh
                        (at != PlotsAt::beside || port >= planned.plots.rows * least_high(type.minor));
     if (width - planned.plots.width < least_panel || port < least_panel || !layout.plots_fit) return planned;
     for (int i = 0; i < count; ++i) {
-        const FilmedScene& scene = panels[static_cast<std::size_t>(i)].scene;
+        const FilmedScene& scene = panels[i].scene;
         const int row = i / columns, in_row = std::min(columns, count - row * columns);
         PanelLayout::Place place;
         // The last row may be shorter; then it stands in the middle.

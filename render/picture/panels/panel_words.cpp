@@ -307,7 +307,7 @@ PanelPlots::PanelPlots(const std::vector<Panel>& panels, const PanelLayout& layo
     }
 }
 
-bool PanelPlots::take(const std::vector<FramePtr>& frames) {
+bool PanelPlots::take(const std::vector<ShotPtr>& frames) {
     bool changed = false;
     for (Placed& placed : plots_) changed |= placed.plot->take(*frames[placed.panel]);
     if (changed) share_limits();

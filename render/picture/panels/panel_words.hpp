@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/words/blocks.hpp"
@@ -65,7 +65,7 @@ class PanelPlots {
                const Palette& palette);
 
     // Takes one frame for each panel. Returns whether anything changed.
-    bool take(const std::vector<FramePtr>& frames);
+    bool take(const std::vector<ShotPtr>& frames);
     struct Placed {
         std::unique_ptr<SidePlot> plot;
         std::string quantity;

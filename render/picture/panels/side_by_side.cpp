@@ -95,11 +95,11 @@ struct SideBySide::Impl {
     template <class Write>
     void renew(const Rectangle& part, const Write& write);
     void write_still_words(const std::vector<Panel>& panels, const Film& film);
-    void write_changing_words(const Frame& frame, const std::string& playback);
-    void write_note(std::size_t panel, const Frame& frame);
+    void write_changing_words(const Shot& frame, const std::string& playback);
+    void write_note(std::size_t panel, const Shot& frame);
     const std::string& pace_of(std::size_t panel, std::size_t segment) const;
     void write_pace(std::size_t panel, const std::string& words);
-    void draw_plots(const std::vector<FramePtr>& frames);
+    void draw_plots(const std::vector<ShotPtr>& frames);
 
     const bool clear;  // whether the background is transparent
     Palette palette;
@@ -183,7 +183,7 @@ void SideBySide::Impl::write_still_words(const std::vector<Panel>& panels, const
     }
 }
 
-void SideBySide::Impl::write_changing_words(const Frame& frame, const std::string& words) {
+void SideBySide::Impl::write_changing_words(const Shot& frame, const std::string& words) {
     const int beyond = clear ? static_cast<int>(std::ceil(halo_of(type, palette).reach)) + 1 : 0;
     for (const WordBlock& block : blocks) {
         if (!block.changes) continue;
@@ -195,7 +195,7 @@ void SideBySide::Impl::write_changing_words(const Frame& frame, const std::strin
     }
 }
 
-void SideBySide::Impl::write_note(std::size_t panel, const Frame& frame) {
+void SideBySide::Impl::write_note(std::size_t panel, const Shot& frame) {
     const Rectangle& part = layout.places[panel].note;
     notes.resize(layout.places.size());
     std::string note = note_text(scenes[panel], frame);
@@ -227,7 +227,7 @@ void SideBySide::Impl::write_pace(std::size_t panel, const std::string& words) {
     paces[panel] = words;
 }
 
-void SideBySide::Impl::draw_plots(const std::vector<FramePtr>& frames) {
+void SideBySide::Impl::draw_plots(const std::vector<ShotPtr>& frames) {
     if (!plots.take(frames) && plots_drawn) return;
     for (PanelPlots::Placed& placed : plots.all())
         renew(placed.place, [&](const Writer& on) { placed.plot->draw(on.on, 0, 0); });
@@ -240,7 +240,7 @@ SideBySide::SideBySide(const std::vector<Panel>& panels, const Film& film, int r
 
 SideBySide::~SideBySide() = default;
 
-const Picture& SideBySide::draw(const std::vector<FramePtr>& frames, std::size_t segment, std::size_t clock,
+const Picture& SideBySide::draw(const std::vector<ShotPtr>& frames, std::size_t segment, std::size_t clock,
                                 double film_time) {
     Impl& m = *impl_;
     GRAINREEL_CHECK(frames.size() == m.renderers.size() && clock < frames.size());

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -29,7 +29,7 @@ class SideBySide {
     // frames: one for each panel, in their order. clock: which of them the clock shows. segment: number of
     // the film's segment, which decides the panels' captions of time. film_time: s since the film's first
     // frame, for cameras that move.
-    const Picture& draw(const std::vector<FramePtr>& frames, std::size_t segment = 0, std::size_t clock = 0,
+    const Picture& draw(const std::vector<ShotPtr>& frames, std::size_t segment = 0, std::size_t clock = 0,
                         double film_time = 0);
 
     const PanelLayout& layout() const;

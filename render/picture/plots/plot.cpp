@@ -105,7 +105,7 @@ double Plot::y_of(double value) const {
     return bottom_ - std::clamp(share, 0.0, 1.0) * (bottom_ - top_);
 }
 
-bool Plot::take(const Frame& frame) {
+bool Plot::take(const Shot& frame) {
     if (!frame.measures || (frame.measures == table_ && frame.measure_rows == rows_)) return false;
     if (frame.measures != table_ || frame.measure_rows < rows_) forget();
     table_ = frame.measures;

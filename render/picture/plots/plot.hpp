@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -25,7 +25,7 @@ class SidePlot {
     virtual ~SidePlot() = default;
 
     // Takes the next frame. Returns whether anything changed.
-    virtual bool take(const Frame& frame) = 0;
+    virtual bool take(const Shot& frame) = 0;
     // The span of the values' axis, SI; none before there is a value. show() gives it another span, which
     // plots that stand together share.
     virtual std::optional<std::array<double, 2>> limits() const = 0;
@@ -60,7 +60,7 @@ class Plot final : public SidePlot {
 
     // Takes the first measure_rows rows of the frame's measures, as far as it has not taken them yet. Limits
     // only grow, and depend on the rows alone. A row without a value (NaN) leaves a gap.
-    bool take(const Frame& frame) override;
+    bool take(const Shot& frame) override;
     std::optional<std::array<double, 2>> limits() const override {
         return any_ ? std::optional(limits_) : frame_.range;
     }

@@ -59,7 +59,7 @@ ProfilePlot::ProfilePlot(const FilmedScene& scene, const FilmPlot& plot, int wid
     bottom_ = std::floor(height - (plot.across ? 2 : 1) * words - 0.35 * type.minor);
 }
 
-bool ProfilePlot::take(const Frame& frame) {
+bool ProfilePlot::take(const Shot& frame) {
     sums_.clear();
     sums_.add(field_state_of(scene_, frame, plot_.period), 0);
     const CoarseFields fields = sums_.mean();

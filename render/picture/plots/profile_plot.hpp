@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/measure/fields/coarse_graining.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/plots/axes.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -22,7 +23,7 @@ class ProfilePlot final : public SidePlot {
                 const Palette& palette);
 
     // The axes stay as they are; only the curves follow the frames.
-    bool take(const Frame& frame) override;
+    bool take(const Shot& frame) override;
     std::optional<std::array<double, 2>> limits() const override { return range_; }
     void show(const std::array<double, 2>& limits) override { range_ = limits; }
     void draw(cairo_t* on, int x, int y) override;

@@ -178,7 +178,7 @@ void Visibility::update(const Sight& sight, const Cut& cut, const std::vector<Vi
     workers_.resize(static_cast<std::size_t>(team.size()));
     std::atomic<int> next{0};
     team.run([&](int member) {
-        Worker& worker = workers_[static_cast<std::size_t>(member)];
+        Worker& worker = workers_[member];
         worker.seen_in.assign(spheres.size(), 0);
         worker.shown.clear();
         for (int band; (band = next.fetch_add(1, std::memory_order_relaxed)) < bands();)

@@ -96,7 +96,7 @@ void WallOrder::find_pixels(const Sight& sight, const std::vector<ViewSphere>& s
     findings_.resize(static_cast<std::size_t>(team.size()));
     const std::vector<std::uint32_t>& shown = visibility.shown();
     team.run([&](int member) {
-        Finding& finding = findings_[static_cast<std::size_t>(member)];
+        Finding& finding = findings_[member];
         finding.pixels.clear();
         finding.active.assign(plates_.size(), false);
         for (std::size_t k = member; k < shown.size(); k += static_cast<std::size_t>(team.size())) {

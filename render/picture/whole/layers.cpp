@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kGhost = 90;  // strength of a ghost, of 255
 
 void lay_row(const Layer& layer, int y, std::uint32_t* out, std::uint32_t strength = 255) {
-    const Layer::Span span = layer.spans[static_cast<std::size_t>(y)];
+    const Layer::Span span = layer.spans[y];
     lay_over(out + span.begin, layer.row(y) + span.begin, span.end - span.begin, strength);
 }
 
@@ -33,8 +33,7 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
             if (layers.ground) layers.ground->shade(y, out);
             lay_row(layers.behind, y, out);
             if (layers.meshes_behind) lay_row(*layers.meshes_behind, y, out);
-            const std::uint32_t strength =
-                layers.strengths.empty() ? 255 : layers.strengths[static_cast<std::size_t>(y)];
+            const std::uint32_t strength = layers.strengths.empty() ? 255 : layers.strengths[y];
             lay_row(layers.grains, y, out, strength);
             if (layers.ghosts) lay_row(*layers.ghosts, y, out, kGhost * strength / 255);
             if (layers.meshes_before) lay_row(*layers.meshes_before, y, out);
@@ -164,7 +163,7 @@ void SideLayer::bind(const Rectangle& part) {
 // Clears pixels that were drawn the last time and will not be drawn this time.
 void SideLayer::forget_beside(const Rectangle& part) {
     for (int y = 0; y < height_; ++y) {
-        Layer::Span& span = layer_.spans[static_cast<std::size_t>(y)];
+        Layer::Span& span = layer_.spans[y];
         const bool drawn = part.width > 0 && y >= part.y && y < part.y + part.height;
         const Layer::Span now = drawn ? Layer::Span{part.x, part.x + part.width} : Layer::Span{};
         std::uint32_t* row = layer_.row(y);

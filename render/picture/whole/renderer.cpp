@@ -128,26 +128,26 @@ struct Renderer::Impl {
     Picture words;               // words beside the port, kept from picture to picture
     Picture picture;             // the picture that draw() returns
 
-    void draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
+    void draw(const Shot& frame, const std::string& playback, double film_time, Picture& into,
               DrawTimes* times);
     void copy_words(Picture& into) const;
-    void draw_exposed(const Frame& frame, const View& view, Picture& into, DrawStopwatch& watch);
-    void draw_moment(const Frame& frame, const Frame* marked, const View& view, Picture& into,
+    void draw_exposed(const Shot& frame, const View& view, Picture& into, DrawStopwatch& watch);
+    void draw_moment(const Shot& frame, const Shot* marked, const View& view, Picture& into,
                      DrawStopwatch& watch);
     const Layer& draw_grains(SpherePainter& painter, DrawStopwatch& watch);
-    void draw_solid_meshes(const Frame& frame, DrawStopwatch& watch);
+    void draw_solid_meshes(const Shot& frame, DrawStopwatch& watch);
     void draw_other_meshes(DrawStopwatch& watch);
     const Layer* draw_before();
-    void start_from(const Frame& frame);
+    void start_from(const Shot& frame);
     void point_out(PointedOut what);
     // The frame without the grains that the cut takes away, which have no marks. A copy is made only where
     // there are marks.
-    const Frame& to_be_marked(const Frame& frame) {
+    const Shot& to_be_marked(const Shot& frame) {
         return has_marks(scene.film.shows) ? beside_cut.of(frame) : frame;
     }
 };
 
-void Renderer::Impl::draw(const Frame& frame, const std::string& playback, double film_time, Picture& into,
+void Renderer::Impl::draw(const Shot& frame, const std::string& playback, double film_time, Picture& into,
                           DrawTimes* times) {
     context->make_current();
     DrawStopwatch watch(context->gl(), times);
@@ -167,8 +167,8 @@ void Renderer::Impl::draw(const Frame& frame, const std::string& playback, doubl
     watch.lap(&DrawTimes::overlay);
 }
 
-void Renderer::Impl::start_from(const Frame& frame) {
-    const Frame& start = exaggeration.shown(frame);
+void Renderer::Impl::start_from(const Shot& frame) {
+    const Shot& start = exaggeration.shown(frame);
     sphere_painter.start_from(start);
     marks.start_from(start);
     if (ghost_painter) ghost_painter->start_from(start);
@@ -205,10 +205,10 @@ void Renderer::Impl::copy_words(Picture& into) const {
 }
 
 // Draws all moments while the shutter is open. Each of them gets the marks of the frame itself.
-void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture& into, DrawStopwatch& watch) {
+void Renderer::Impl::draw_exposed(const Shot& frame, const View& view, Picture& into, DrawStopwatch& watch) {
     if (!exposure) exposure.emplace(port);
-    const Frame marked = to_be_marked(shown.of(exaggeration.shown(frame)));
-    for (const FramePtr& moment : frame.exposed) {
+    const Shot marked = to_be_marked(shown.of(exaggeration.shown(frame)));
+    for (const ShotPtr& moment : frame.exposed) {
         draw_moment(*moment, &marked, view, into, watch);
         exposure->add(into);
     }
@@ -219,12 +219,12 @@ void Renderer::Impl::draw_exposed(const Frame& frame, const View& view, Picture&
 }
 
 // marked: the frame whose marks are drawn; null: the frame itself.
-void Renderer::Impl::draw_moment(const Frame& true_frame, const Frame* marked, const View& view,
-                                 Picture& into, DrawStopwatch& watch) {
-    const Frame& frame = exaggeration.shown(true_frame);
+void Renderer::Impl::draw_moment(const Shot& true_frame, const Shot* marked, const View& view, Picture& into,
+                                 DrawStopwatch& watch) {
+    const Shot& frame = exaggeration.shown(true_frame);
     eye = scene.film.camera.follow ? view.moved_by(way_of_container(scene, frame)) : view;
-    const Frame& all = shown.of(frame);
-    const Frame& opaque = ghost_painter ? solid.of(all) : all;
+    const Shot& all = shown.of(frame);
+    const Shot& opaque = ghost_painter ? solid.of(all) : all;
     draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
     watch.lap(&DrawTimes::walls);
     if (ground) ground->update(opaque, eye);
@@ -279,7 +279,7 @@ const Layer* Renderer::Impl::draw_before() {
     return &marks_alone->draw(shape_painter, shapes.over);
 }
 
-void Renderer::Impl::draw_solid_meshes(const Frame& frame, DrawStopwatch& watch) {
+void Renderer::Impl::draw_solid_meshes(const Shot& frame, DrawStopwatch& watch) {
     const MeshPaints paints = mesh_paints(palette, scene.film.camera.up, scene.film.height);
     mesh_projection.take(eye, sphere_painter.sight(), sphere_painter.cut(), meshes.at(frame), paints, team);
     mesh_painter->draw_solid(mesh_projection, sphere_painter.sight(), team);
@@ -312,13 +312,12 @@ Renderer::Renderer(const FilmedScene& scene, const PictureLayout& layout, int ra
 
 Renderer::~Renderer() = default;
 
-const Picture& Renderer::draw(const Frame& frame, const std::string& playback, double film_time) {
+const Picture& Renderer::draw(const Shot& frame, const std::string& playback, double film_time) {
     draw_into(impl_->picture, frame, playback, film_time);
     return impl_->picture;
 }
 
-void Renderer::draw_into(Picture& picture, const Frame& frame, const std::string& playback,
-                         double film_time) {
+void Renderer::draw_into(Picture& picture, const Shot& frame, const std::string& playback, double film_time) {
     impl_->draw(frame, playback, film_time, picture, nullptr);
 }
 
@@ -336,7 +335,7 @@ std::string Renderer::last_note() const {
     return note;
 }
 
-DrawTimes Renderer::draw_timed(const Frame& frame, const std::string& playback) {
+DrawTimes Renderer::draw_timed(const Shot& frame, const std::string& playback) {
     DrawTimes times;
     impl_->draw(frame, playback, 0, impl_->picture, &times);
     return times;
@@ -346,7 +345,7 @@ const View& Renderer::view() const {
     return impl_->eye;
 }
 
-void Renderer::start_from(const Frame& frame) {
+void Renderer::start_from(const Shot& frame) {
     impl_->start_from(frame);
 }
 
@@ -354,7 +353,7 @@ void Renderer::point_out(PointedOut what) {
     impl_->point_out(std::move(what));
 }
 
-void Renderer::remember(const Frame& frame) {
+void Renderer::remember(const Shot& frame) {
     impl_->marks.remember(impl_->to_be_marked(impl_->shown.of(impl_->exaggeration.shown(frame))));
 }
 

@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
+#include "engine/state/contact.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/marks/force_marks.hpp"
@@ -46,19 +47,19 @@ class Renderer {
 
     // Draws a frame in the size of the scene's film. playback: the caption of time ("slow motion, 1/10
     // speed"). film_time: s since the film's first frame, for a camera that moves.
-    const Picture& draw(const Frame& frame, const std::string& playback, double film_time = 0);
+    const Picture& draw(const Shot& frame, const std::string& playback, double film_time = 0);
 
     // Draws into a picture of the caller's: an empty one, or one that this renderer has drawn into before.
-    void draw_into(Picture& picture, const Frame& frame, const std::string& playback, double film_time);
+    void draw_into(Picture& picture, const Shot& frame, const std::string& playback, double film_time);
 
     const View& view() const;  // view of the last picture
     // Gives the film's first frame, which decides the grains' heights at the start. Without a call the first
     // frame that is drawn decides them.
-    void start_from(const Frame& frame);
+    void start_from(const Shot& frame);
     // Points out these grains and forces in all pictures from now on.
     void point_out(PointedOut what);
     // Takes a frame that is not drawn but leaves trails.
-    void remember(const Frame& frame);
+    void remember(const Shot& frame);
 
     // Says how much of what was drawn lies beyond the ends of the colour bar, and which labels have had no
     // grain. Empty when there is nothing to say.
@@ -68,7 +69,7 @@ class Renderer {
     std::string gl_note() const;         // why it is not the kind that one would expect; empty if it is
 
     // Draws the same picture and tells what each of its stages cost.
-    DrawTimes draw_timed(const Frame& frame, const std::string& playback);
+    DrawTimes draw_timed(const Shot& frame, const std::string& playback);
 
   private:
     struct Impl;

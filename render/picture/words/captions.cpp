@@ -174,7 +174,7 @@ std::string caption_at(const Film& film, double time) {
 
 }  // namespace
 
-std::string note_text(const FilmedScene& scene, const Frame& frame) {
+std::string note_text(const FilmedScene& scene, const Shot& frame) {
     const std::string text =
         live_text(scene.film.shows.live_words, [&](const std::string& name) -> std::optional<double> {
             if (!frame.measures || frame.measure_rows == 0) return std::nullopt;

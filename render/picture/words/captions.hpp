@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -42,7 +42,7 @@ std::string playback_text(const Film& film, const Frame& frame, const std::strin
 // What has flowed out, the scene's own words (film.text, with the latest values of measures), and the caption
 // shown at this time. longest_notes() gives texts about as long as these get: one for each caption, or a
 // single one if there are no captions.
-std::string note_text(const FilmedScene& scene, const Frame& frame);
+std::string note_text(const FilmedScene& scene, const Shot& frame);
 std::vector<std::string> longest_notes(const FilmedScene& scene);
 // How many lines of the gutter each line of a note may take.
 inline int note_lines(const FilmedScene& scene) {

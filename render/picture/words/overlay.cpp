@@ -107,7 +107,7 @@ void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
     if (!layout_.plates) put(second_.get(), part, layout_.second, picture);
 }
 
-void Overlay::write(Picture& picture, const Frame& frame, const std::string& playback, const View& view) {
+void Overlay::write(Picture& picture, const Shot& frame, const std::string& playback, const View& view) {
     // Axes, arrows and scale depend on the view.
     if (view.eye != drawn_for_.eye || view.forward != drawn_for_.forward || view.focal != drawn_for_.focal)
         draw_still(view);
@@ -168,7 +168,7 @@ void Overlay::lay_over(Picture& picture) const {
     lay_plates(second_.get(), second_plates_, layout_.second, picture);
 }
 
-void Overlay::renew_plots(Picture& picture, const Frame& frame) {
+void Overlay::renew_plots(Picture& picture, const Shot& frame) {
     for (std::size_t k = 0; k < plots_.size(); ++k) {
         SidePlot& plot = *plots_[k];
         if (!plot.take(frame) && written_) continue;

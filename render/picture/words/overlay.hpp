@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/words/blocks.hpp"
@@ -26,7 +26,7 @@ class Overlay {
     // Writes the gutters into the picture: all of them the first time, then only what changes. Plates are
     // only prepared here; lay_over() puts them into the picture. view: the view before the camera follows the
     // container.
-    void write(Picture& picture, const Frame& frame, const std::string& playback, const View& view);
+    void write(Picture& picture, const Shot& frame, const std::string& playback, const View& view);
     // Lays the plates, if there are any, over a picture that is drawn.
     void lay_over(Picture& picture) const;
 
@@ -44,7 +44,7 @@ class Overlay {
     // Draws a rectangle of the second gutter anew over what stands still, and puts it into the picture.
     template <class Draw>
     void renew(Picture& picture, const Rectangle& part, const Draw& draw);
-    void renew_plots(Picture& picture, const Frame& frame);
+    void renew_plots(Picture& picture, const Shot& frame);
 
     const FilmedScene& scene_;
     const Palette palette_;

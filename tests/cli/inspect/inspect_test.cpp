@@ -295,7 +295,7 @@ TEST(Questions, ComparingMomentsIsDoneInTheContainersFrame) {
 TEST(Questions, WallsOfAKeptMomentHaveTheirContacts) {
     Bed bed;
     bed.snapshot.contacts = true;
-    bed.snapshot.frame.touches = {{5, 21, 0.5}, {5, -1, 0.25}, {6, -1, 1}, {7, -3, 2}};
+    bed.snapshot.touches = {{5, 21, 0.5}, {5, -1, 0.25}, {6, -1, 1}, {7, -3, 2}};
     for (const AnswerTable& table : overview_of(bed.snapshot).tables) {
         if (table.name == "moment") {
             EXPECT_EQ(number(cell_of(table, 0, "contacts")), 4);
@@ -312,7 +312,7 @@ TEST(Questions, WallsOfAKeptMomentHaveTheirContacts) {
 TEST(Questions, AGrainTellsItsContacts) {
     Bed bed;
     bed.snapshot.contacts = true;
-    bed.snapshot.frame.touches = {{5, 21, 0.5}, {5, -1, 0.25}, {6, 7, 1}};
+    bed.snapshot.touches = {{5, 21, 0.5}, {5, -1, 0.25}, {6, 7, 1}};
     const Answer answer = grain_answer(bed.snapshot, 5);
     ASSERT_EQ(answer.tables.size(), 2u);
     ASSERT_EQ(answer.tables[1].rows.size(), 2u);

@@ -39,9 +39,9 @@ FilmSegment locked(int every) {
 }
 
 std::vector<std::int64_t> shown(const BedPeriods& bed, const FilmSegment& rule,
-                                const std::vector<Shot>& shots) {
+                                const std::vector<Due>& shots) {
     std::vector<std::int64_t> steps;
-    for (const Shot& shot : shots)
+    for (const Due& shot : shots)
         if (bed.shows(rule, shot)) steps.push_back(shot.step);
     return steps;
 }
@@ -54,7 +54,7 @@ void run(BedPeriods& bed, int periods) {
 
 TEST(BedPeriods, LeaveOutLockedFramesInBetween) {
     // The segment begins in period 3, and the next frames count from there.
-    const std::vector<Shot> all{{250, 0}, {330, 0}, {410, 0}, {490, 0}, {570, 0}};
+    const std::vector<Due> all{{250, 0}, {330, 0}, {410, 0}, {490, 0}, {570, 0}};
     BedPeriods bed(scene_with(0), kClock, all, true);
     EXPECT_THAT(bed.possible(), testing::ElementsAre(1, 2, 3, 4));
     EXPECT_THAT(shown(bed, locked(1), all), testing::ElementsAre(250, 330, 410, 490, 570));
@@ -66,7 +66,7 @@ TEST(BedPeriods, LeaveOutLockedFramesInBetween) {
     EXPECT_THAT(bed.news()[0], HasSubstr("only every 2 periods of the drive"));
     EXPECT_THAT(bed.news()[0], HasSubstr("film.periods = 1"));
     // One frame every second period is already in step with the bed.
-    const std::vector<Shot> second{{330, 0}, {490, 0}, {650, 0}};
+    const std::vector<Due> second{{330, 0}, {490, 0}, {650, 0}};
     BedPeriods bed_of_two(scene_with(0), kClock, second, true);
     run(bed_of_two, 20);
     EXPECT_THAT(shown(bed_of_two, locked(2), second), testing::ElementsAre(330, 490, 650));
@@ -74,7 +74,7 @@ TEST(BedPeriods, LeaveOutLockedFramesInBetween) {
 
 // In films side by side the other panels may repeat themselves after other numbers of periods.
 TEST(BedPeriods, LeaveOutNothingWhereTheyMayNot) {
-    const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}};
+    const std::vector<Due> all{{0, 0}, {80, 0}, {160, 0}};
     BedPeriods bed(scene_with(0), kClock, all, false);
     run(bed, 20);
     EXPECT_EQ(bed.shown(), 2);
@@ -84,7 +84,7 @@ TEST(BedPeriods, LeaveOutNothingWhereTheyMayNot) {
 
 // A film without locked frames, displacements and means gets no message about them.
 TEST(BedPeriods, SpeakOnlyOfWhatTheFilmShows) {
-    const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}};
+    const std::vector<Due> all{{0, 0}, {80, 0}, {160, 0}};
     const auto news = [&](int periods, bool may_leave_out, const auto& change) {
         FilmedScene scene = scene_with(periods);
         change(scene.film);
@@ -109,7 +109,7 @@ TEST(BedPeriods, SpeakOnlyOfWhatTheFilmShows) {
 }
 
 TEST(BedPeriods, AreThoseOfTheSceneWhereItSaysSo) {
-    const std::vector<Shot> all{{0, 0}, {80, 0}, {160, 0}, {240, 0}, {320, 0}};
+    const std::vector<Due> all{{0, 0}, {80, 0}, {160, 0}, {240, 0}, {320, 0}};
     BedPeriods one(scene_with(1), kClock, all, true), three(scene_with(3), kClock, all, true);
     run(one, 20), run(three, 20);
     EXPECT_THAT(shown(one, locked(1), all), testing::SizeIs(5));

@@ -184,8 +184,8 @@ TEST(FrameWriters, ATableOfGrainsIsReadBackToTheLastBit) {
         FrameSupply supply;
         supply.orientations = orientation;
         writer->begin(World(), supply);
-        writer->frame(made_frame(5, 1, orientation));
-        writer->frame(wanted);
+        writer->frame(made_frame(5, 1, orientation), {});
+        writer->frame(wanted, {});
         writer->end();
         const auto frames = open_frames(here / "grains");
         EXPECT_EQ(frames->supply().orientations, orientation);
@@ -209,8 +209,8 @@ TEST(FrameWriters, ATrajectoryKeepsItsWorld) {
     world.most_grains = 9;
     const auto writer = frame_writer("netcdf", here / "moments");
     writer->begin(world, {});
-    writer->frame(made_frame(9, 1));
-    writer->frame(made_frame(9, 2));
+    writer->frame(made_frame(9, 1), {});
+    writer->frame(made_frame(9, 2), {});
     writer->end();
     const auto frames = open_frames(here / "moments");
     ASSERT_EQ(frames->moments().size(), 2u);

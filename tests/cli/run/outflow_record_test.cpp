@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/small_scene.hpp"
@@ -84,7 +85,7 @@ TEST(OutflowSums, RefusesDamageWithItsLine) {
 TEST(OutflowOnTheFrame, SaysGrainsAndMass) {
     const FilmedScene scene = with_outlet();
     ASSERT_TRUE(scene.film.shows.outflow);
-    Frame frame;
+    Shot frame;
     EXPECT_EQ(note_text(scene, frame), "");
     frame.flowed_out = FlowedOut{0, 0};
     EXPECT_EQ(note_text(scene, frame), "") << "nothing has flowed out yet";

@@ -1,6 +1,7 @@
 // Tests of what pictures show beside their own moment: displacements, exposures and means. They come from a
 // run that goes on and keeps the moments that it will need, or from a record with every moment.
 #include "render/film/sources/picture_parts.hpp"
+#include "render/picture/base/shot.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,9 +65,9 @@ struct Asked {
 };
 
 // The picture, made in both ways, which must give the same.
-Frame picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grain,
+Shot picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grain,
               const PlaceAt& wall = at_rest, std::int64_t first = 0) {
-    Frame at_will = frame_at(asked.shot, grain(asked.shot), wall(asked.shot)), passing = at_will;
+    Shot at_will = frame_at(asked.shot, grain(asked.shot), wall(asked.shot)), passing = at_will;
     parts.add(at_will, asked.rule, asked.periods, {}, any_moment(grain, wall, first));
     KeptMoments kept;
     for (const int periods : {1, 2}) kept.want(asked.shot, parts.moments(asked.shot, asked.rule, periods));
@@ -90,7 +91,7 @@ std::vector<std::int64_t> steps_of(const std::vector<WantedMoment>& moments) {
 TEST(PictureParts, OfAPlainFilmAreNone) {
     const PictureParts parts(FilmedScene(), kClock, 0);
     EXPECT_TRUE(parts.moments(1600, FilmSegment(), 1).empty());
-    const Frame now = picture(parts, {1600, FilmSegment()}, [](std::int64_t) { return Vec3(1, 2, 3); });
+    const Shot now = picture(parts, {1600, FilmSegment()}, [](std::int64_t) { return Vec3(1, 2, 3); });
     EXPECT_EQ(now.position[0], Vec3(1, 2, 3));
     EXPECT_EQ(now.velocity[0], Vec3(9, 9, 9));
     EXPECT_TRUE(now.displacement.empty() && now.exposed.empty() && now.touches.empty() && !now.measures);
@@ -104,7 +105,7 @@ TEST(PictureParts, GiveTheWayOfAPeriod) {
         // The way goes through the periodic wall: 3 mm, not -37 mm.
         return step < 400 ? Vec3(0.019, 0, 0.1) : Vec3(-0.018, 0.002, 0.11);
     };
-    const Frame now = picture(parts, {802, FilmSegment()}, moved, at_rest, 2);
+    const Shot now = picture(parts, {802, FilmSegment()}, moved, at_rest, 2);
     ASSERT_EQ(now.displacement.size(), 1u);
     EXPECT_LT((now.displacement[0] - Vec3(0.003, 0.002, 0.01)).norm(), 1e-12);
     EXPECT_TRUE(picture(parts, {801, FilmSegment()}, moved, at_rest, 2).displacement.empty());
@@ -116,9 +117,9 @@ TEST(PictureParts, GiveTheMeanWayOfAPeriodOverSeveral) {
     const auto bounced = [](std::int64_t step) {
         return Vec3(0, 0, 0.001 * kClock.cycles(step) + (step / 800 % 2 ? 0.5 : 0));
     };
-    const Frame two = picture(parts, {1600, FilmSegment(), 2}, bounced);
+    const Shot two = picture(parts, {1600, FilmSegment(), 2}, bounced);
     EXPECT_LT((two.displacement.at(0) - Vec3(0, 0, 0.001)).norm(), 1e-12);
-    const Frame one = picture(parts, {2400, FilmSegment(), 1}, bounced);
+    const Shot one = picture(parts, {2400, FilmSegment(), 1}, bounced);
     EXPECT_LT((one.displacement.at(0) - Vec3(0, 0, 0.501)).norm(), 1e-12);
 }
 
@@ -128,7 +129,7 @@ TEST(PictureParts, GiveTheMomentsOfAnExposure) {
     rule.exposures = 4;
     const PictureParts parts(FilmedScene(), kClock, 150);
     EXPECT_THAT(steps_of(parts.moments(400, rule, 1)), testing::ElementsAre(200, 300)) << "100 is before it";
-    const Frame now =
+    const Shot now =
         picture(parts, {600, rule}, [](std::int64_t step) { return Vec3(0, 0, static_cast<double>(step)); });
     ASSERT_EQ(now.exposed.size(), 3u);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -150,7 +151,7 @@ TEST(PictureParts, OfAMeanLeaveTheDriftAlone) {
     constexpr std::int64_t kShot = 4300;
     const PictureParts parts(FilmedScene(), kClock, 0);
     EXPECT_THAT(parts.moments(kShot, mean_of(3), 1), testing::SizeIs(3 * 16)) << "beside its own";
-    const Frame now = picture(
+    const Shot now = picture(
         parts, {kShot, mean_of(3)}, [&](std::int64_t step) { return shaken(step, drift); },
         [](std::int64_t step) { return shaken(step, Vec3::Zero()); });
     // The mean of 48 samples, which are 1/16 of a period apart and end now, lags by half of 47 of these
@@ -170,7 +171,7 @@ TEST(PictureParts, OfAMeanSpanThePeriodsOfTheBed) {
         return shaken(step, drift) + Vec3(0, 0, 0.003) * std::sin(std::numbers::pi * kClock.cycles(step));
     };
     for (const int periods : {1, 2}) {
-        const Frame frame =
+        const Shot frame =
             picture(PictureParts(FilmedScene(), kClock, 0), {kShot, mean_of(1), periods}, doubled);
         const double error = (frame.velocity[0] - drift).norm();
         if (periods == 2)
@@ -196,7 +197,7 @@ TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
         return at;
     };
     for (const std::int64_t shot : {800, 1600}) {  // in the first period the grain passes the end at 0.01 s
-        const Frame now = picture(PictureParts(scene, kClock, 0), {shot, mean_of(1)}, wrapped);
+        const Shot now = picture(PictureParts(scene, kClock, 0), {shot, mean_of(1)}, wrapped);
         double expected = 0.1 * (kClock.time(shot) - 0.5 * 15 * 50 * kClock.step) + 0.019;
         expected -= kDepth * std::round(expected / kDepth);
         EXPECT_NEAR(now.position[0].x(), expected, 1e-15) << shot;
@@ -205,7 +206,7 @@ TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
 }
 
 TEST(PictureParts, OfAMeanTakeTheBedToHaveRestedBeforeTheRun) {
-    const Frame now = picture(PictureParts(FilmedScene(), kClock, 0), {400, mean_of(1)},
+    const Shot now = picture(PictureParts(FilmedScene(), kClock, 0), {400, mean_of(1)},
                               [](std::int64_t step) { return Vec3(0, 0, 1e-5 * static_cast<double>(step)); });
     double expected = 0;  // 9 samples are from step 0 to 400, and 7 are at rest
     for (int k = 0; k <= 8; ++k) expected += 1e-5 * 50 * k / 16;
@@ -215,7 +216,7 @@ TEST(PictureParts, OfAMeanTakeTheBedToHaveRestedBeforeTheRun) {
 // If the source lacks a moment, no part is made of the others.
 TEST(PictureParts, LeaveOutWhatIsNotToBeHad) {
     const PictureParts parts(scene_with_displacements(), kClock, 0);
-    Frame now = frame_at(1600, Vec3(1, 2, 3));
+    Shot now = frame_at(1600, Vec3(1, 2, 3));
     parts.add(now, mean_of(1), 1, {}, any_moment(at_rest, at_rest, 1500));
     EXPECT_EQ(now.position[0], Vec3(1, 2, 3));
     EXPECT_TRUE(now.displacement.empty());
@@ -233,7 +234,7 @@ TEST(PictureParts, LeaveOutWaysOfGrainsThatHaveComeOrGone) {
     const OtherMoments before = [&](std::int64_t step) {
         return std::make_shared<const Frame>(with(frame_at(step, Vec3(0, 0, 1)), 1, Vec3(7, 8, 9)));
     };
-    Frame now = with(frame_at(1600, Vec3(0, 0, 3)), 2, Vec3(4, 5, 6));
+    Shot now = with(frame_at(1600, Vec3(0, 0, 3)), 2, Vec3(4, 5, 6));
     parts.add(now, mean_of(1), 1, {}, before);
     EXPECT_EQ(now.position[1], Vec3(4, 5, 6));
     EXPECT_EQ(now.velocity[1], Vec3(0, 0, 0));

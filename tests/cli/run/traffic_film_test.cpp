@@ -10,6 +10,7 @@
 #include "engine/run/driver/run_files.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "render/film/codec/png.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/small_scene.hpp"
@@ -140,7 +141,7 @@ TEST(TrafficFilm, PicturesShowWhoIsThere) {
     for (int i = 1; i <= 16; ++i) {
         sink.simulation.advance(i * every);
         if (i % 2 == 1) sink.rain(i / 2);
-        Frame frame = sink.simulation.frame();
+        Shot frame = sink.simulation.frame();
         for (const SavedContact& c : sink.simulation.contacts())
             frame.touches.push_back({c.first, c.second, c.normal});
         const Picture picture = renderer.draw(frame, "");

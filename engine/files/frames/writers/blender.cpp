@@ -199,7 +199,7 @@ class Blender final : public FrameWriter {
     }
     // A frame is the species of all grains, their ids (int32), then x, y, z and radius of each grain
     // (float32). frame_of() in the script above reads this layout.
-    void frame(const Frame& frame) override {
+    void frame(const Frame& frame, const std::vector<Touch>&) override {
         nlohmann::json poses = nlohmann::json::array();
         for (const WorldSurface& surface : surfaces_) {
             const BodyPose pose = frame.body(surface.body);

@@ -50,7 +50,7 @@ class Gsd final : public FrameWriter {
         supply_ = supply;
     }
 
-    void frame(const Frame& frame) override {
+    void frame(const Frame& frame, const std::vector<Touch>&) override {
         const std::size_t n = frame.size();
         const WorldCell box = box_of(world_, frame);
         Vec3 shift(0, 0, 0);

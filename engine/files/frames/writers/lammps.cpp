@@ -18,7 +18,7 @@ class LammpsData final : public FrameWriter {
     explicit LammpsData(const std::filesystem::path& path) : path_(path) {}
 
     void begin(const World& world, const FrameSupply&) override { world_ = world; }
-    void frame(const Frame& frame) override { last_ = frame; }
+    void frame(const Frame& frame, const std::vector<Touch>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame to make a data file of");
         const Frame& frame = *last_;
@@ -89,7 +89,7 @@ class LammpsDump final : public FrameWriter {
         supply_ = supply;
         out_.text() += "ITEM: UNITS\nsi\n";
     }
-    void frame(const Frame& frame) override {
+    void frame(const Frame& frame, const std::vector<Touch>&) override {
         std::string& text = out_.text();
         const WorldCell box = box_of(world_, frame);
         if (world_.time_known) text += fmt::format("ITEM: TIME\n{}\n", frame.time);

@@ -175,7 +175,7 @@ class Gltf final : public FrameWriter {
     explicit Gltf(std::filesystem::path path) : path_(std::move(path)) {}
 
     void begin(const World& world, const FrameSupply&) override { world_ = world; }
-    void frame(const Frame& frame) override { last_ = frame; }
+    void frame(const Frame& frame, const std::vector<Touch>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame");
         Glb glb;
@@ -236,7 +236,7 @@ class Stl final : public FrameWriter {
         if (surfaces_.empty())
             throw UserError(path_.string() + ": the run has no walls, and STL has nothing but walls");
     }
-    void frame(const Frame& frame) override { last_ = frame; }
+    void frame(const Frame& frame, const std::vector<Touch>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame");
         std::string bytes(80, '\0');

@@ -26,7 +26,7 @@ class Csv final : public FrameWriter {
         if (supply.contact_numbers) out_.text() += ",contact_number";
         out_.text() += '\n';
     }
-    void frame(const Frame& frame) override {
+    void frame(const Frame& frame, const std::vector<Touch>&) override {
         for (std::size_t i = 0; i < frame.size(); ++i) {
             std::string& text = out_.text();
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
@@ -57,7 +57,7 @@ class GrainTable final : public FrameWriter {
     explicit GrainTable(std::filesystem::path path) : path_(std::move(path)) {}
 
     void begin(const World&, const FrameSupply&) override {}
-    void frame(const Frame& frame) override { last_ = frame; }
+    void frame(const Frame& frame, const std::vector<Touch>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame to make a table of");
         write_grain_table(path_, *last_);
@@ -79,7 +79,7 @@ class Xyz final : public FrameWriter {
         world_ = world;
         supply_ = supply;
     }
-    void frame(const Frame& frame) override {
+    void frame(const Frame& frame, const std::vector<Touch>&) override {
         std::string& text = out_.text();
         const WorldCell box = box_of(world_, frame);
         const auto edge = [](const Vec3& e) { return fmt::format("{} {} {}", e.x(), e.y(), e.z()); };

@@ -30,7 +30,7 @@ class Trajectory final : public FrameWriter {
         info_ = trajectory_info(world, supply);
         if (info_.capacity > 0) writer_.emplace(path_, info_);
     }
-    void frame(const Frame& frame) override {
+    void frame(const Frame& frame, const std::vector<Touch>&) override {
         count(frame);
         if (!writer_) {
             info_.capacity = std::max<std::size_t>(1, most_);

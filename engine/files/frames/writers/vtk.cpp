@@ -155,7 +155,7 @@ class Vtk final : public FrameWriter {
         contacts_ = contacts;
         has_forces_ = true;
     }
-    void frame(const Frame& frame) override {
+    void frame(const Frame& frame, const std::vector<Touch>& touches) override {
         VtkPolyData grains = grains_of(frame, world_, supply_);
         if (has_forces_) {
             std::optional<std::vector<Vec3>> forces;
@@ -167,7 +167,7 @@ class Vtk final : public FrameWriter {
         if (supply_.contacts)
             write("contacts", 2, frame,
                   has_forces_ ? contact_lines(frame, contacts_.value_or(std::vector<SavedContact>()), world_)
-                              : contact_lines(frame, frame.touches, world_));
+                              : contact_lines(frame, touches, world_));
         contacts_.reset();
         ++frames_;
     }

@@ -12,6 +12,7 @@
 
 #include "engine/files/frames/world.hpp"
 #include "engine/frame.hpp"
+#include "engine/state/contact.hpp"
 
 namespace grainreel {
 

@@ -9,8 +9,7 @@ namespace grainreel {
 
 ToneTable::ToneTable() {
     for (int i = 0; i < kSteps; ++i)
-        bytes_[static_cast<std::size_t>(i)] =
-            static_cast<std::uint8_t>(std::lround(255 * to_srgb(i / (kSteps - 1.0))));
+        bytes_[i] = static_cast<std::uint8_t>(std::lround(255 * to_srgb(i / (kSteps - 1.0))));
 }
 
 const ToneTable& ToneTable::get() {
@@ -27,12 +26,9 @@ void ToneTable::pixels(const float* red, const float* green, const float* blue, 
     for (int first = 0; first < count; first += kSome) {
         const int some = std::min(kSome, count - first);
         for (int c = 0; c < 3; ++c)
-            for (int i = 0; i < some; ++i)
-                steps[c][static_cast<std::size_t>(i)] = step(colours[c][first + i]);
+            for (int i = 0; i < some; ++i) steps[c][i] = step(colours[c][first + i]);
         for (int i = 0; i < some; ++i) {
-            const auto byte = [&](int c) -> std::uint32_t {
-                return bytes_[static_cast<std::size_t>(steps[c][static_cast<std::size_t>(i)])];
-            };
+            const auto byte = [&](int c) -> std::uint32_t { return bytes_[steps[c][i]]; };
             out[first + i] = byte(0) | byte(1) << 8 | byte(2) << 16 | 0xff000000u;
         }
     }

@@ -30,7 +30,7 @@ struct Lamp {
 class ToneTable {
   public:
     static const ToneTable& get();
-    std::uint32_t byte(float linear) const { return bytes_[static_cast<std::size_t>(step(linear))]; }
+    std::uint32_t byte(float linear) const { return bytes_[step(linear)]; }
     // Makes `count` opaque pixels.
     void pixels(const float* red, const float* green, const float* blue, int count, std::uint32_t* out) const;
 

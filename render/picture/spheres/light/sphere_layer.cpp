@@ -53,7 +53,7 @@ void BandPainter::paint_row(const PaintJob& job, int y, Layer& layer) {
     const Visibility& seen = job.visibility;
     const std::uint32_t* row = seen.row(y);
     std::uint32_t* out = layer.row(y);
-    Layer::Span& span = layer.spans[static_cast<std::size_t>(y)];
+    Layer::Span& span = layer.spans[y];
     std::fill(out + span.begin, out + span.end, 0u);
     span = {layer.width, 0};
     sphere_kernels().mark_edges(row, seen.row(std::max(0, y - 1)),
@@ -267,7 +267,7 @@ const Layer& SphereLayer::light(const Sight& sight, const Cut& cut, const Lamp& 
     std::atomic<int> next{0};
     team.run([&](int member) {
         const FlushDenormals flush;
-        BandPainter& painter = painters_[static_cast<std::size_t>(member)];
+        BandPainter& painter = painters_[member];
         for (int y; (y = kRows * next.fetch_add(1, std::memory_order_relaxed)) < layer_.height;)
             painter.paint(job, y, std::min(y + kRows, layer_.height), layer_);
     });
