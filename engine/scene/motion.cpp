@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string>
@@ -13,6 +12,7 @@
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/rotation.hpp"
@@ -185,16 +185,12 @@ class PathReader {
     }
 
     double number(const std::vector<std::string_view>& cells, Column column) const {
-        std::string_view cell = cells[static_cast<std::size_t>(at_[column])];
-        const std::string_view shown = cell;
-        if (!cell.empty() && cell.front() == '+') cell.remove_prefix(1);
-        double value = 0;
-        const char* const end = cell.data() + cell.size();
-        const auto read = std::from_chars(cell.data(), end, value);
-        if (cell.empty() || read.ptr != end || read.ec != std::errc() || !std::isfinite(value))
+        const std::string_view cell = cells[static_cast<std::size_t>(at_[column])];
+        const std::optional<double> value = number_in(cell);
+        if (!value)
             fail(fmt::format("\"{}\" in the column {} is no finite number; correct it or remove the row",
-                             excerpt(shown), column_names[column].front()));
-        return value;
+                             excerpt(cell), column_names[column].front()));
+        return *value;
     }
 
     void take_row(std::string_view line) {

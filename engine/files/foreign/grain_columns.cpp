@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/files/foreign/names.hpp"
 
 namespace grainreel {
@@ -17,13 +18,6 @@ namespace {
 
 constexpr const char* kAxes = "xyz";
 constexpr double kMostId = 2147483646;  // ids have 32 bits in a Frame
-
-std::optional<double> number_of(const std::string& word) {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (end != word.c_str() + word.size() || word.empty()) return std::nullopt;
-    return value;
-}
 
 UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const std::string& file) {
     const std::string& name = options.units.empty() ? facts.units : options.units;
@@ -49,7 +43,7 @@ UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const
 void TypeList::add(const std::string& word) {
     if (place(word)) return;
     const auto before = [](const std::string& a, const std::string& b) {
-        const std::optional<double> one = number_of(a), other = number_of(b);
+        const std::optional<double> one = number_in(a), other = number_in(b);
         if (one && other) return *one < *other;
         if (one.has_value() != other.has_value()) return one.has_value();
         return a < b;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
@@ -287,11 +288,11 @@ void split_cells(std::string_view line, char separator, bool closed, std::vector
 std::optional<double> cell_number(std::string_view cell, bool decimal_comma) {
     if (cell.empty() || cell == "NA" || cell == "N/A" || cell == "null" || cell == "NULL")
         return std::numeric_limits<double>::quiet_NaN();
-    if (!decimal_comma || cell.find(',') == std::string_view::npos) return number_of(cell);
+    if (!decimal_comma || cell.find(',') == std::string_view::npos) return number_in(cell, Dialect::programs);
     std::string with_point(cell);
     if (with_point.find('.') != std::string::npos) return std::nullopt;
     with_point[with_point.find(',')] = '.';
-    return number_of(with_point);
+    return number_in(with_point, Dialect::programs);
 }
 
 bool is_remark(std::string_view line) {

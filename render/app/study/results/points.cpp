@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <sstream>
 
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/scene_file.hpp"
 
@@ -87,14 +87,6 @@ std::vector<Cell> cells_of(const std::string& line) {
     return cells;
 }
 
-std::optional<double> number_of(const std::string& text) {
-    double value = 0;
-    const char* const end = text.data() + text.size();
-    const auto read = std::from_chars(text.data(), end, value);
-    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(value)) return std::nullopt;
-    return value;
-}
-
 }  // namespace
 
 std::vector<ReferencePoint> read_reference(const std::filesystem::path& file) {
@@ -107,7 +99,7 @@ std::vector<ReferencePoint> read_reference(const std::filesystem::path& file) {
         if (!line.empty() && line.back() == '\r') line.pop_back();
         if (line.empty() || line.front() == '#') continue;
         const std::vector<Cell> cells = cells_of(line);
-        const bool heading = may_be_heading && !number_of(cells[0].text);
+        const bool heading = may_be_heading && !number_in(cells[0].text);
         may_be_heading = false;
         if (heading) continue;
         const auto fail = [&](std::size_t column, const std::string& what) {
@@ -117,7 +109,7 @@ std::vector<ReferencePoint> read_reference(const std::filesystem::path& file) {
         if (cells.size() < 2 || cells.size() > 3) fail(1, fmt::format("there are {} numbers", cells.size()));
         double values[3] = {};
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            const auto value = number_of(cells[i].text);
+            const auto value = number_in(cells[i].text);
             if (!value) fail(cells[i].column, fmt::format("\"{}\" is no number", excerpt(cells[i].text)));
             values[i] = *value;
         }
