@@ -13,10 +13,12 @@
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
 #include "engine/base/text.hpp"
+#include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/table_layout.hpp"
 #include "engine/files/foreign/tables/text_lines.hpp"
+#include "engine/scene/text/units.hpp"
 
 namespace grainreel {
 
@@ -57,15 +59,6 @@ struct Ranges {
 
 std::optional<TableLayout> layout_at(const FileHead& head) {
     return layout_of(head.bytes, head.bytes.size() < kHeadBytes);
-}
-
-// How many seconds a unit of time has; 1 for a unit that is not known.
-double seconds_in(const std::string& unit) {
-    static const std::map<std::string, double> units{{"ms", 1e-3},      {"us", 1e-6}, {"\u00b5s", 1e-6},
-                                                     {"\u03bcs", 1e-6}, {"ns", 1e-9}, {"min", 60},
-                                                     {"h", 3600}};
-    const auto found = units.find(unit);
-    return found == units.end() ? 1.0 : found->second;
 }
 
 class NumberTable : public RawFile {
@@ -137,7 +130,7 @@ void NumberTable::find_clocks() {
         if (layout_.is_word[i]) continue;
         if (!time_ && (small_t || std::find(times.begin(), times.end(), bare) != times.end())) {
             time_ = i;
-            time_unit_ = seconds_in(unit_of_name(name));
+            time_unit_ = unit_size_in(unit_of_name(name), Dimension::time).value_or(1);
         }
         if (!step_ && std::find(steps.begin(), steps.end(), bare) != steps.end()) step_ = i;
     }

@@ -10,6 +10,7 @@
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
+#include "engine/scene/text/units.hpp"
 
 namespace grainreel {
 
@@ -140,30 +141,39 @@ std::string program_of(const TableLayout& layout) {
     return {};
 }
 
-// Whether a row holds the units of the columns: "m", "[mm]", "-".
+// The word in a cell of units: "mm" in "mm", "[mm]" and "(mm)".
+std::string_view unit_word(std::string_view cell) {
+    cell = trimmed(cell);
+    if (cell.size() > 1 && (cell.front() == '[' || cell.front() == '('))
+        cell = cell.substr(1, cell.size() - 2);
+    return trimmed(cell);
+}
+
+// Whether a word names a unit, perhaps in another case than it should ("MM"). A long word does not, so that
+// udunits' table is not read for the second line of any text.
+bool names_unit(std::string_view word) {
+    constexpr std::size_t longest = 12;
+    return word == "-" || (word.size() <= longest && (parse_unit(word) || parse_unit(lower_case(word))));
+}
+
+// Whether a row holds the units of the columns: "m", "[mm]", "-". Most of its cells must, because in
+// "1,1,1,b" the "b" is a type of grains and no barn.
 bool are_units(const Cells& cells) {
-    constexpr std::array<std::string_view, 22> known{
-        "m",    "cm",   "mm", "um", "µm",    "micron", "nm",  "s", "ms", "us",  "m/s",
-        "cm/s", "mm/s", "kg", "g",  "kg/m3", "rad/s",  "1/s", "n", "pa", "rad", "-"};
-    std::size_t units = 0;
-    for (const CsvCell& one : cells) {
-        std::string_view cell = trimmed(one.text);
-        if (cell.size() > 1 && (cell.front() == '[' || cell.front() == '('))
-            cell = cell.substr(1, cell.size() - 2);
-        const std::string word = lower_case(trimmed(cell));
-        const bool unit = std::find(known.begin(), known.end(), word) != known.end();
-        if (!unit && !word.empty() && word != "1") return false;
-        units += unit;
+    std::size_t units = 0, others = 0;
+    for (const CsvCell& cell : cells) {
+        const std::string_view word = unit_word(cell.text);
+        if (word.empty()) continue;
+        const bool unit = names_unit(word);
+        if (!unit && word != "1") return false;
+        ++(unit ? units : others);
     }
-    return units > 0;
+    return units > others;
 }
 
 // Moves the units from a row of their own into the names: "x [mm]".
 void add_units(TableLayout& layout, const Cells& cells) {
     for (std::size_t i = 0; i < std::min(cells.size(), layout.names.size()); ++i) {
-        std::string unit(trimmed(cells[i].text));
-        if (unit.size() > 1 && (unit.front() == '[' || unit.front() == '('))
-            unit = unit.substr(1, unit.size() - 2);
+        const std::string_view unit = unit_word(cells[i].text);
         if (!unit.empty() && unit != "-" && unit != "1") layout.names[i] += fmt::format(" [{}]", unit);
     }
 }
@@ -285,14 +295,6 @@ bool is_remark(std::string_view line) {
 
 std::string bare_name(std::string_view name) {
     return lower_case(trimmed(name.substr(0, name.find_first_of("[("))));
-}
-
-std::string unit_of_name(std::string_view name) {
-    const std::size_t open = name.find_first_of("[(");
-    if (open == std::string_view::npos) return {};
-    const std::size_t close = name.find_first_of("])", open);
-    return std::string(
-        trimmed(name.substr(open + 1, close == std::string_view::npos ? close : close - open - 1)));
 }
 
 }  // namespace grainreel

@@ -34,7 +34,5 @@ bool is_remark(std::string_view line);
 
 // A name without its unit and in lower case: "x" for "X [mm]".
 std::string bare_name(std::string_view name);
-// The unit in brackets after a name, "mm"; empty where there is none.
-std::string unit_of_name(std::string_view name);
 
 }  // namespace grainreel
