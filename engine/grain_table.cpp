@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -12,8 +11,11 @@
 #include <string>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 
+#include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 
@@ -49,73 +51,71 @@ void append(fmt::memory_buffer& row, const double* values, int count) {
 // The cells of one row, taken one after the other from the left. Messages name the line and the column.
 class GrainRow {
   public:
-    GrainRow(const std::filesystem::path& path, int line, std::string_view text)
-        : path_(path), line_(line), text_(text) {}
+    explicit GrainRow(const CsvRows& rows) : rows_(rows) {}
 
-    template <class Number>
-    Number take(const char* column) {
-        if (at_ > text_.size()) fail(fmt::format("the row ends before `{}`", column));
-        const std::size_t end = std::min(text_.find(',', at_), text_.size());
-        const std::string_view cell = text_.substr(at_, end - at_);
-        Number value{};
-        const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-        if (error != std::errc() || stop != cell.data() + cell.size()) {
-            fail(fmt::format("`{}` is no number for `{}`", cell, column));
-        }
-        if constexpr (std::is_floating_point_v<Number>) {
-            if (!std::isfinite(value)) fail(fmt::format("`{}` is {}", column, value));
-        }
-        last_ = at_;
-        at_ = end + 1;
-        return value;
+    double number(const char* column) {
+        const CsvCell cell = take(column);
+        if (const std::optional<double> value = number_in(cell.text)) return *value;
+        const std::optional<double> value = number_in(cell.text, Dialect::programs);
+        if (value && !std::isfinite(*value)) reject(fmt::format("`{}` is {}", column, *value));
+        refuse(column);
     }
 
-    Vec3 take_vector(const std::array<const char*, 3>& columns) {
+    std::int32_t whole(const char* column) {
+        const std::optional<std::int64_t> value = whole_in(take(column).text);
+        if (!value || !std::in_range<std::int32_t>(*value)) refuse(column);
+        return static_cast<std::int32_t>(*value);
+    }
+
+    Vec3 vector(const std::array<const char*, 3>& columns) {
         Vec3 vector;
-        for (int i = 0; i < 3; ++i) vector[i] = take<double>(columns[static_cast<std::size_t>(i)]);
+        for (int i = 0; i < 3; ++i) vector[i] = number(columns[static_cast<std::size_t>(i)]);
         return vector;
     }
 
-    void end() {
-        if (at_ <= text_.size()) fail("the row has more columns than the header");
+    void end() const {
+        if (taken_ < rows_.cells().size())
+            fail(rows_.cells()[taken_].column, "the row has more columns than the header");
     }
 
     // Throws UserError at the cell that was taken last.
-    [[noreturn]] void reject(const std::string& what) {
-        at_ = last_;
-        fail(what);
-    }
+    [[noreturn]] void reject(const std::string& what) const { fail(rows_.cells()[taken_ - 1].column, what); }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw UserError(fmt::format("{}:{}:{}: {}; write the table again from a run", path_.string(), line_,
-                                    at_ + 1, what));
+    const CsvCell& take(const char* column) {
+        if (taken_ == rows_.cells().size())
+            fail(rows_.text().size() + 1, fmt::format("the row ends before `{}`", column));
+        return rows_.cells()[taken_++];
+    }
+    [[noreturn]] void refuse(const char* column) const {
+        reject(fmt::format("`{}` is no number for `{}`", rows_.cells()[taken_ - 1].text, column));
+    }
+    [[noreturn]] void fail(std::size_t column, const std::string& what) const {
+        rows_.fail(column, what + "; write the table again from a run");
     }
 
-    const std::filesystem::path& path_;
-    int line_;
-    std::string_view text_;
-    std::size_t at_ = 0, last_ = 0;
+    const CsvRows& rows_;
+    std::size_t taken_ = 0;  // number of cells that were taken
 };
 
 void read_grain(GrainRow& row, const TableForm& form, std::unordered_set<std::int32_t>& ids, Frame& frame) {
-    frame.id.push_back(row.take<std::int32_t>("id"));
+    frame.id.push_back(row.whole("id"));
     if (frame.id.back() < 0) row.reject("`id` is negative");
     if (!ids.insert(frame.id.back()).second)
         row.reject(fmt::format("grain {} is here twice", frame.id.back()));
-    const auto species = row.take<std::int32_t>(form.species);
+    const auto species = row.whole(form.species);
     if (species < form.first_species)
         row.reject(
             fmt::format("`{}` is {}, but it counts from {}", form.species, species, form.first_species));
     frame.species.push_back(species - form.first_species);
-    frame.radius.push_back(row.take<double>("radius"));
+    frame.radius.push_back(row.number("radius"));
     if (frame.radius.back() <= 0) row.reject("`radius` is not positive");
-    frame.position.push_back(row.take_vector({"x", "y", "z"}));
-    frame.velocity.push_back(row.take_vector({"vx", "vy", "vz"}));
-    frame.spin.push_back(row.take_vector({"wx", "wy", "wz"}));
+    frame.position.push_back(row.vector({"x", "y", "z"}));
+    frame.velocity.push_back(row.vector({"vx", "vy", "vz"}));
+    frame.spin.push_back(row.vector({"wx", "wy", "wz"}));
     if (form.orientation) {
-        const Vec3 q = row.take_vector({"qx", "qy", "qz"});
-        frame.orientation.emplace_back(row.take<double>("qw"), q.x(), q.y(), q.z());
+        const Vec3 q = row.vector({"qx", "qy", "qz"});
+        frame.orientation.emplace_back(row.number("qw"), q.x(), q.y(), q.z());
     }
     row.end();
 }
@@ -149,23 +149,18 @@ TableMark write_grain_table(const std::filesystem::path& path, const Frame& fram
 
 Frame read_grain_table(const std::filesystem::path& path) {
     std::ifstream file = read_plain(path);
-    std::string line;
     if (!file)
         throw UserError(fmt::format("{}: cannot be opened; give the final.csv of a run", path.string()));
-    std::getline(file, line);
-    drop_byte_order_mark(line);
-    if (line.ends_with('\r')) line.pop_back();
-    const std::optional<TableForm> form = form_of(line);
+    CsvRows rows(file, path);
+    const std::optional<TableForm> form = rows.next() ? form_of(rows.text()) : std::nullopt;
     if (!form) {
         throw UserError(fmt::format("{}:1:1: not a table of grains; the first line must be `{}`",
                                     path.string(), plain_header));
     }
     Frame frame;
     std::unordered_set<std::int32_t> ids;
-    for (int number = 2; std::getline(file, line); ++number) {
-        if (line.ends_with('\r')) line.pop_back();
-        if (line.empty()) continue;
-        GrainRow row(path, number, line);
+    while (rows.next()) {
+        GrainRow row(rows);
         read_grain(row, *form, ids, frame);
     }
     if (frame.size() == 0) throw UserError(fmt::format("{}:2:1: no grains in the table", path.string()));

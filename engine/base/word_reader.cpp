@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
-
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 
@@ -16,19 +13,6 @@ constexpr bool is_end(char c) {
 }
 constexpr bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
-}
-
-// Tells 1e-400 from 1e400, because from_chars() reports both as out of range.
-bool is_tiny(std::string_view word) {
-    const std::size_t exponent = word.find_first_of("eE");
-    if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');
-    const std::size_t digit = word.find_first_not_of("-0");
-    return digit != std::string_view::npos && word[digit] == '.';
-}
-
-std::string_view without_plus(std::string_view word) {
-    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-    return word;
 }
 
 constexpr std::size_t most_of_a_path = 400;  // characters of a path in a message
@@ -81,39 +65,6 @@ bool same_word(std::string_view word, std::string_view lower_case) {
         if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c) != lower_case[i]) return false;
     }
     return true;
-}
-
-std::optional<double> number_in(std::string_view word) {
-    word = without_plus(word);
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (word.empty() || end != word.data() + word.size()) return std::nullopt;
-    if (error == std::errc::result_out_of_range && is_tiny(word)) return 0.0;
-    if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-    return value;
-}
-
-std::optional<std::int64_t> whole_in(std::string_view word) {
-    word = without_plus(word);
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (word.empty() || error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-    return value;
-}
-
-double decimal_of(float value) {
-    constexpr float whole = 1 << 24;
-    if (!(std::abs(value) < whole) || value == std::trunc(value)) return value;
-    char digits[32];
-    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
-    double decimal = value;
-    if (error == std::errc()) std::from_chars(digits, end, decimal);
-    return decimal;
-}
-
-std::string no_number(std::string_view word) {
-    if (word.empty()) return "a number is missing";
-    return fmt::format("\"{}\" is not a finite number", excerpt(word));
 }
 
 void refuse_file(const std::filesystem::path& file, const std::string& what) {

@@ -1,11 +1,10 @@
-// Reads text files word by word: words with the line in which each stands, numbers, and errors that name the
-// place in a file.
+// Reads text files word by word: words with the line in which each stands, and errors that name the place in
+// a file.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -37,18 +36,6 @@ class WordReader {
 
 // Whether a word is `lower_case`, ignoring the case of its ASCII letters.
 bool same_word(std::string_view word, std::string_view lower_case);
-
-// The finite number that the whole word stands for. "+1.5" and 1e-400 are numbers; nan, inf, "-1.#IND" and
-// 1e400 are not.
-std::optional<double> number_in(std::string_view word);
-std::optional<std::int64_t> whole_in(std::string_view word);
-
-// The meaning of a float in a binary file: the shortest decimal number that rounds to it. A plate at 0.1 then
-// stands at the same place, to the last bit, in a binary file and in a text file.
-double decimal_of(float value);
-
-// The reason why a word is no number: "\"nan\" is not a finite number".
-std::string no_number(std::string_view word);
 
 // These throw UserError with the text "file: what", "file:line: what" or "file: byte 84: what".
 [[noreturn]] void refuse_file(const std::filesystem::path& file, const std::string& what);

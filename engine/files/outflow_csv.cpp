@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <numbers>
 #include <string>
 
 #include "engine/base/clock.hpp"
+#include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/scene/scene.hpp"
@@ -30,13 +31,13 @@ OutflowWriter::OutflowWriter(const std::filesystem::path& path) : file_(path) {
 
 OutflowWriter::Kept OutflowWriter::kept_until(const std::filesystem::path& path, double time) {
     std::ifstream file = read_plain(path);
-    std::string line;
-    if (!std::getline(file, line) || file.eof() || line != header)
+    CsvRows rows(file, path);
+    if (!rows.next() || !rows.ended() || rows.text() != header)
         throw UserError(
             fmt::format("{}: is missing, or has another first line than `{}`", path.string(), header));
-    Kept kept{line.size() + 1, 0};
-    while (std::getline(file, line) && !file.eof() && std::strtod(line.c_str(), nullptr) <= time) {
-        kept.bytes += line.size() + 1;
+    Kept kept{rows.bytes(), 0};
+    while (rows.next() && rows.ended() && number_in(rows.cells().front().text).value_or(0) <= time) {
+        kept.bytes = rows.bytes();
         ++kept.rows;
     }
     return kept;

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <fstream>
 #include <numeric>
 #include <string_view>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/decimal.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/handover/decks.hpp"
 
 namespace grainreel {
@@ -41,7 +40,9 @@ bool numbers_in(std::string_view row, double (&values)[kNumbers]) {
     for (double& value : values) {
         row = without_blanks(row);
         const std::size_t end = std::min(row.find(' '), row.size());
-        if (end == 0 || !any_number(row.substr(0, end), value) || !std::isfinite(value)) return false;
+        const std::optional<double> number = number_in(row.substr(0, end));
+        if (!number) return false;
+        value = *number;
         row.remove_prefix(end);
     }
     return without_blanks(row).empty();

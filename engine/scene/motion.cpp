@@ -4,19 +4,21 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string>
 #include <string_view>
 
 #include "engine/base/counted.hpp"
+#include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/rotation.hpp"
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/mesh/load_mesh.hpp"
 
 namespace grainreel {
@@ -121,106 +123,82 @@ enum Column { of_time, of_x, of_y, of_z, of_qw, of_qx, of_qy, of_qz, columns };
 const std::array<std::vector<std::string_view>, columns> column_names{
     {{"time_s", "t", "time"}, {"x_m", "x"}, {"y_m", "y"}, {"z_m", "z"}, {"qw"}, {"qx"}, {"qy"}, {"qz"}}};
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-    std::vector<std::string_view> cells;
-    for (;;) {
-        const std::size_t comma = line.find(',');
-        cells.push_back(trimmed(line.substr(0, comma), " \t\r\""));
-        if (comma == std::string_view::npos) return cells;
-        line.remove_prefix(comma + 1);
-    }
-}
-
 class PathReader {
   public:
-    explicit PathReader(const std::filesystem::path& file) : name_(file.string()) {
-        if (const std::string other = other_than_file(file, true); !other.empty())
-            throw UserError(fmt::format("{}: is {}, not a path's file (.csv)", name_, other));
-        std::ifstream in = read_plain(file);
-        if (!in)
-            throw UserError(fmt::format(
-                "{}: there is no such file, or it cannot be read; give a path's file (.csv)", name_));
-        for (std::string line; std::getline(in, line);) {
-            ++line_;
-            if (line_ == 1) drop_byte_order_mark(line);
-            const std::string_view text = trimmed(line);
-            if (text.empty() || text.front() == '#') continue;
-            header_ == 0 ? take_header(text) : take_row(text);
-        }
+    PathReader(std::istream& text, const std::filesystem::path& file)
+        : file_(file), table_(text, file, {.quotes = true, .remarks = "#"}) {
+        if (table_.next()) take_header();
+        while (table_.next()) take_row();
         check_whole();
     }
 
     PathRows rows;
 
   private:
-    [[noreturn]] void fail(const std::string& what) const { fail_at(line_, what); }
-    [[noreturn]] void fail_at(int line, const std::string& what) const {
-        throw UserError(fmt::format("{}:{}: {}", name_, line, what));
+    [[noreturn]] void fail_at(std::int64_t line, const std::string& what) const {
+        refuse_line(file_, line, what);
     }
 
-    void take_header(std::string_view line) {
-        header_ = line_;
-        const std::vector<std::string_view> cells = cells_of(line);
+    void take_header() {
+        header_ = table_.line();
+        const std::vector<CsvCell>& cells = table_.cells();
         width_ = cells.size();
         for (std::size_t c = 0; c < cells.size(); ++c) {
             const auto found = std::find_if(column_names.begin(), column_names.end(), [&](const auto& names) {
-                return std::find(names.begin(), names.end(), cells[c]) != names.end();
+                return std::find(names.begin(), names.end(), cells[c].text) != names.end();
             });
             if (found == column_names.end())
-                fail(
+                table_.fail(
                     fmt::format("the column \"{}\" means nothing in a path; the first line must name its "
                                 "columns: time_s, x_m, y_m, z_m and, if it turns, qw, qx, qy, qz",
-                                excerpt(cells[c])));
+                                excerpt(cells[c].text)));
             const auto column = static_cast<std::size_t>(found - column_names.begin());
-            if (at_[column] >= 0) fail(fmt::format("there are two columns \"{}\"; take one out", cells[c]));
+            if (at_[column] >= 0)
+                table_.fail(fmt::format("there are two columns \"{}\"; take one out", cells[c].text));
             at_[column] = static_cast<int>(c);
         }
         turns_ = std::any_of(at_.begin() + of_qw, at_.end(), [](int at) { return at >= 0; });
         for (std::size_t column = 0; column < (turns_ ? columns : of_qw); ++column)
             if (at_[column] < 0)
-                fail(
+                table_.fail(
                     fmt::format("lacks the column \"{}\"; a path has time_s, x_m, y_m, z_m and, if it "
                                 "turns, qw, qx, qy, qz",
                                 column_names[column].front()));
     }
 
-    double number(const std::vector<std::string_view>& cells, Column column) const {
-        std::string_view cell = cells[at_[column]];
-        const std::string_view shown = cell;
-        if (!cell.empty() && cell.front() == '+') cell.remove_prefix(1);
-        double value = 0;
-        const char* const end = cell.data() + cell.size();
-        const auto read = std::from_chars(cell.data(), end, value);
-        if (cell.empty() || read.ptr != end || read.ec != std::errc() || !std::isfinite(value))
-            fail(fmt::format("\"{}\" in the column {} is no finite number; correct it or remove the row",
-                             excerpt(shown), column_names[column].front()));
-        return value;
+    double number(Column column) const {
+        const std::string_view cell = table_.cells()[at_[column]].text;
+        const std::optional<double> value = number_in(cell);
+        if (!value)
+            table_.fail(
+                fmt::format("\"{}\" in the column {} is no finite number; correct it or remove the row",
+                            excerpt(cell), column_names[column].front()));
+        return *value;
     }
 
-    void take_row(std::string_view line) {
-        const std::vector<std::string_view> cells = cells_of(line);
-        if (cells.size() != width_)
-            fail(fmt::format("has {}, but line {} names {} columns; is the file cut off?",
-                             counted(cells.size(), "value"), header_, width_));
-        const double time = number(cells, of_time);
+    void take_row() {
+        const std::size_t cells = table_.cells().size();
+        if (cells != width_)
+            table_.fail(fmt::format("has {}, but line {} names {} columns; is the file cut off?",
+                                    counted(cells, "value"), header_, width_));
+        const double time = number(of_time);
         if (!rows.times.empty() && !(time > rows.times.back()))
-            fail(
+            table_.fail(
                 fmt::format("the time is {:.9g} s, not later than {:.9g} s in line {}; sort the rows, and "
                             "remove those of equal times",
                             time, rows.times.back(), rows.lines.back()));
-        rows.lines.push_back(line_);
+        rows.lines.push_back(table_.line());
         rows.times.push_back(time);
-        rows.places.emplace_back(number(cells, of_x), number(cells, of_y), number(cells, of_z));
-        if (turns_) take_turn(cells);
+        rows.places.emplace_back(number(of_x), number(of_y), number(of_z));
+        if (turns_) take_turn();
     }
 
     // q and -q are the same rotation; the one nearer to the row before is taken.
-    void take_turn(const std::vector<std::string_view>& cells) {
-        Eigen::Vector4d turn(number(cells, of_qw), number(cells, of_qx), number(cells, of_qy),
-                             number(cells, of_qz));
+    void take_turn() {
+        Eigen::Vector4d turn(number(of_qw), number(of_qx), number(of_qy), number(of_qz));
         const double length = turn.norm();
         if (std::abs(length - 1) > off_unit)
-            fail(
+            table_.fail(
                 fmt::format("qw, qx, qy, qz have the length {:.6g}, and a rotation has 1; write 1, 0, 0, 0 "
                             "for none",
                             length));
@@ -232,8 +210,8 @@ class PathReader {
     void check_whole() const {
         if (header_ == 0) fail_at(1, "is empty; write time_s, x_m, y_m, z_m, and rows below");
         if (rows.times.size() < fewest_rows)
-            fail(fmt::format("the path ends after {} rows, and {} are the fewest; add rows",
-                             rows.times.size(), fewest_rows));
+            table_.fail(fmt::format("the path ends after {} rows, and {} are the fewest; add rows",
+                                    rows.times.size(), fewest_rows));
         if (rows.times.front() > 0)
             fail_at(rows.lines.front(),
                     fmt::format("the path begins at {:.6g} s, but the run begins at 0 s; add a row of time 0",
@@ -288,8 +266,9 @@ class PathReader {
         }
     }
 
-    std::string name_;
-    int line_ = 0, header_ = 0;
+    const std::filesystem::path& file_;
+    CsvRows table_;
+    std::int64_t header_ = 0;  // number of the line that names the columns
     std::size_t width_ = 0;
     std::array<int, columns> at_{-1, -1, -1, -1, -1, -1, -1, -1};
     bool turns_ = false;
@@ -298,7 +277,13 @@ class PathReader {
 }  // namespace
 
 PathRows read_path_rows(const std::filesystem::path& file) {
-    return std::move(PathReader(file).rows);
+    if (const std::string other = other_than_file(file, true); !other.empty())
+        throw UserError(fmt::format("{}: is {}, not a path's file (.csv)", file.string(), other));
+    std::ifstream text = read_plain(file);
+    if (!text)
+        throw UserError(fmt::format(
+            "{}: there is no such file, or it cannot be read; give a path's file (.csv)", file.string()));
+    return std::move(PathReader(text, file).rows);
 }
 
 namespace {

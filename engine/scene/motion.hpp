@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -110,7 +111,7 @@ class MotionPath {
 // The rows of a path's file, checked one by one. Internal to MotionPath.
 
 struct PathRows {
-    std::vector<int> lines;  // line number in the file, from 1
+    std::vector<std::int64_t> lines;  // line number in the file, from 1
     std::vector<double> times;
     std::vector<Vec3> places;
     std::vector<Eigen::Vector4d> turns;  // unit, w first, each with the sign that is nearer to the one

@@ -290,6 +290,22 @@ TEST(Archive, VelocitiesHaveTheUnitOfTheirNames) {
     EXPECT_NEAR(frame.radius[0], 0.004, 1e-15);
 }
 
+// Brackets may hold any unit of that dimension. One of another dimension is passed over, and told.
+TEST(Archive, UnitsInNamesMeasureWhatTheColumnHolds) {
+    const TemporaryFolder folder;
+    write(folder / "a.csv",
+          "x [inch],y [inch],z [inch],radius [µm],vx [km/h],vy [s],vz (plain)\n1,2,3,4,36,6,7\n");
+    const ForeignArchive archive(folder / "a.csv", {});
+    const Frame frame = archive.grains(0);
+    EXPECT_NEAR(frame.position[0].x(), 0.0254, 1e-15);
+    EXPECT_NEAR(frame.radius[0], 4e-6, 1e-18);
+    EXPECT_NEAR(frame.velocity[0].x(), 10, 1e-12);
+    EXPECT_NEAR(frame.velocity[0].y(), 6, 1e-12);
+    EXPECT_NEAR(frame.velocity[0].z(), 7, 1e-12);
+    EXPECT_THAT(archive.news(), testing::Contains(HasSubstr("\"vy [s]\" does not measure a speed")));
+    EXPECT_THAT(archive.news(), testing::Not(testing::Contains(HasSubstr("vz"))));
+}
+
 // A restart has written the last frame again.
 TEST(Archive, OfTwoFramesOfOneTimeTheLaterCounts) {
     const TemporaryFolder folder;

@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "engine/base/number_text.hpp"
 #include "engine/files/foreign/decimal.hpp"
 
 namespace grainreel {
@@ -25,7 +26,11 @@ Read read_number(const std::string& word) {
     Read read;
     const char* const end = plain_decimal(text.c_str(), read.value);
     read.fast = end != nullptr && (*end == ' ' || *end == '\n');
-    read.taken = read.fast ? end == text.c_str() + word.size() : any_number(word, read.value);
+    read.taken = read.fast && end == text.c_str() + word.size();
+    if (read.fast) return read;
+    const std::optional<double> number = number_in(word, Dialect::programs);
+    read.taken = number.has_value();
+    read.value = number.value_or(0);
     return read;
 }
 
@@ -135,8 +140,9 @@ TEST(DumpDecimals, OddWords) {
         EXPECT_TRUE(read.taken && std::isnan(read.value)) << word;
     }
     EXPECT_EQ(read_number("-1.#INF").value, -std::numeric_limits<double>::infinity());
+    EXPECT_EQ(read_number("1.5d-1").value, 0.15);
     for (const char* word :
-         {"-", "+", "e5", "1e", "1e+", "1.5d0", "1.2.3", "--1", "+-1", "0x10", "1,5", ".", "1 2"})
+         {"-", "+", "e5", "1e", "1e+", "1.5d", "1.2.3", "--1", "+-1", "0x10", "1,5", ".", "1 2"})
         EXPECT_FALSE(read_number(word).taken) << word;
 }
 

@@ -46,8 +46,10 @@ TEST(NumberTable, ARowOfUnitsGoesToTheNames) {
         EXPECT_THAT(names(table), ElementsAre("x [mm]", "y [mm]", "r [m]", "n")) << bytes;
         EXPECT_THAT(column(table, "y [mm]"), ElementsAre(2)) << bytes;
     }
+    EXPECT_THAT(names(table_of("x,y,t\nMM,inch,min\n1,2,3\n")), ElementsAre("x [MM]", "y [inch]", "t [min]"));
     // These are materials with names like units.
     EXPECT_THAT(words(table_of("kind,x,y\nm,1,2\ns,3,4\n"), "kind"), ElementsAre("m", "s"));
+    EXPECT_THAT(words(table_of("kind,x,y,z\nb,1,1,1\na,3,4,5\n"), "kind"), ElementsAre("b", "a"));
 }
 
 TEST(NumberTable, AWordAmongPlacesIsAMistakeInItsRow) {
@@ -113,6 +115,8 @@ TEST(NumberTable, RowsOfOneTimeMakeAFrame) {
 
 TEST(NumberTable, TimesMayHaveAUnit) {
     EXPECT_DOUBLE_EQ(*frame_of(number_table_format(), "time [ms],x,y\n20,1,2\n").time, 0.02);
+    EXPECT_DOUBLE_EQ(*frame_of(number_table_format(), "time (h),x,y\n20,1,2\n").time, 72000);
+    EXPECT_DOUBLE_EQ(*frame_of(number_table_format(), "time (mm),x,y\n20,1,2\n").time, 20);  // no time
     EXPECT_FALSE(frame_of(number_table_format(), "T,x,y\n20,1,2\n").time.has_value());  // T is a temperature
     EXPECT_EQ(frame_of(number_table_format(), "Frame,x,y\n7,1,2\n").step, 7);
 }

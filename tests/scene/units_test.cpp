@@ -101,6 +101,17 @@ INSTANTIATE_TEST_SUITE_P(
             "must be a length, but \"5 mm @ 3\" has the unknown unit \"mm @ 3\"; write for example \"5 "
             "mm\""}));
 
+TEST(Units, HaveASizeInTheirDimension) {
+    EXPECT_EQ(unit_size_in("mm", Dimension::length), 1e-3);
+    EXPECT_EQ(unit_size_in("µm", Dimension::length), 1e-6);
+    EXPECT_EQ(unit_size_in("micron", Dimension::length), 1e-6);
+    EXPECT_EQ(unit_size_in("h", Dimension::time), 3600);
+    EXPECT_EQ(unit_size_in("cm/s", Dimension::speed), 1e-2);
+    EXPECT_EQ(unit_size_in("g", Dimension::mass), 1e-3);
+    for (const char* word : {"", "s", "-", "1", "grain", "2 mm"})
+        EXPECT_FALSE(unit_size_in(word, Dimension::length)) << word;
+}
+
 TEST(Units, AreSafeFromSeveralThreads) {
     std::vector<std::thread> threads;
     std::vector<double> sums(4, 0);

@@ -2,9 +2,6 @@
 
 #include <array>
 #include <bit>
-#include <charconv>
-#include <cmath>
-#include <limits>
 
 namespace grainreel {
 
@@ -59,43 +56,6 @@ constexpr auto inverses = [] {
     return all;
 }();
 
-bool same(std::string_view word, std::string_view lower) {
-    if (word.size() != lower.size()) return false;
-    for (std::size_t k = 0; k < word.size(); ++k)
-        if ((word[k] | 0x20) != lower[k]) return false;
-    return true;
-}
-
-// Reads "nan", "inf" and the words of Windows' C library until 2015: "1.#QNAN", "1.#IND", "1.#INF".
-bool not_finite(std::string_view word, double& value) {
-    const bool negative = word.starts_with('-');
-    if (negative) word.remove_prefix(1);
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    if (word.starts_with("nan(") || same(word, "nan") || word.starts_with("1.#QNAN") ||
-        word.starts_with("1.#SNAN") || word.starts_with("1.#IND"))
-        value = std::numeric_limits<double>::quiet_NaN();
-    else if (same(word, "inf") || same(word, "infinity") || word.starts_with("1.#INF"))
-        value = negative ? -infinite : infinite;
-    else
-        return false;
-    return true;
-}
-
-// from_chars reports "out of range" for 1e-400 and for 1e400, so this finds out which it is.
-double beyond_range(std::string_view word) {
-    const bool negative = word.starts_with('-');
-    const std::size_t exponent = word.find_first_of("eE");
-    bool tiny = false;
-    if (exponent != std::string_view::npos) {
-        tiny = word.substr(exponent + 1).starts_with('-');
-    } else {
-        const std::size_t digit = word.find_first_not_of("-0");
-        tiny = digit != std::string_view::npos && word[digit] == '.';
-    }
-    const double size = tiny ? 0.0 : std::numeric_limits<double>::infinity();
-    return negative ? -size : size;
-}
-
 }  // namespace
 
 double scale_exactly(std::uint64_t w, int e) {
@@ -129,16 +89,6 @@ double scale_exactly(std::uint64_t w, int e) {
     const std::uint64_t rest = rest_of(m);
     if (rest <= half && rest + 3 > half) return divided(a, b, scale);
     return assembled((m >> dropped) + (rest > half ? 1 : 0), scale - short_of + dropped);
-}
-
-bool any_number(std::string_view word, double& value) {
-    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-    if (word.empty()) return false;
-    if (not_finite(word, value)) return true;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (end != word.data() + word.size() || error == std::errc::invalid_argument) return false;
-    if (error == std::errc::result_out_of_range) value = beyond_range(word);
-    return true;
 }
 
 }  // namespace grainreel

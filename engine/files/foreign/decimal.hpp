@@ -4,7 +4,7 @@
 // A plain decimal of at most 19 digits is w 10^e with a whole w < 2^64. If w < 2^53 and |e| <= 22, w and
 // 10^|e| are exact doubles, so that one multiplication or division rounds correctly (W. D. Clinger, How to
 // read floating point numbers accurately, PLDI 1990). If |e| <= 27, 5^|e| is a whole number below 2^63, and
-// scale_exactly() can round w 5^e correctly. All other numbers go to std::from_chars.
+// scale_exactly() can round w 5^e correctly. All other words go to number_in() (engine/base/number_text.hpp).
 #pragma once
 
 #ifdef __SSE2__
@@ -14,16 +14,11 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <string_view>
 
 namespace grainreel {
 
 // w 10^e, rounded once. w > 0, |e| <= 27.
 double scale_exactly(std::uint64_t w, int e);
-
-// Reads a word that is a number as a whole. "+1.5", 1e-400 (0), 1e400 (infinity), "nan", "-inf" and Windows'
-// "1.#QNAN" are numbers here; callers that need finite ones must check. Returns false where it is no number.
-bool any_number(std::string_view word, double& value);
 
 namespace decimal_detail {
 
@@ -107,7 +102,7 @@ inline const char* take_exponent(const char* p, int& e) {
 
 }  // namespace decimal_detail
 
-// Reads a plain decimal that begins at p. Returns the place after it, or null where any_number() must be
+// Reads a plain decimal that begins at p. Returns the place after it, or null where number_in() must be
 // used. That is also needed if the next character cannot follow a number ("1.#IND", "1.5d0"). After the
 // number there must be a character that is not part of it, such as the end of a line, and 8 more bytes.
 inline const char* plain_decimal(const char* p, double& value) {

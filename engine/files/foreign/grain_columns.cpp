@@ -9,6 +9,8 @@
 #include <numeric>
 
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/foreign/names.hpp"
 
 namespace grainreel {
@@ -17,13 +19,6 @@ namespace {
 
 constexpr const char* kAxes = "xyz";
 constexpr double kMostId = 2147483646;  // ids have 32 bits in a Frame
-
-std::optional<double> number_of(const std::string& word) {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (end != word.c_str() + word.size() || word.empty()) return std::nullopt;
-    return value;
-}
 
 UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const std::string& file) {
     const std::string& name = options.units.empty() ? facts.units : options.units;
@@ -49,7 +44,7 @@ UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const
 void TypeList::add(const std::string& word) {
     if (place(word)) return;
     const auto before = [](const std::string& a, const std::string& b) {
-        const std::optional<double> one = number_of(a), other = number_of(b);
+        const std::optional<double> one = number_in(a), other = number_in(b);
         if (one && other) return *one < *other;
         if (one.has_value() != other.has_value()) return one.has_value();
         return a < b;
@@ -87,9 +82,7 @@ GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const R
     velocity_ = {find("vx"), find("vy"), find("vz")};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         velocity_unit_[axis] = units_.velocity();
-        if (!velocity_[axis] || !options_.units.empty()) continue;
-        if (const auto unit = unit_in_name(table.columns[*velocity_[axis]].name))
-            velocity_unit_[axis] = *unit;
+        if (const auto unit = unit_in_name(velocity_[axis], Dimension::speed)) velocity_unit_[axis] = *unit;
     }
     spin_ = {find("wx"), find("wy"), find("wz")};
     quaternion_ = {find("qw"), find("qx"), find("qy"), find("qz")};
@@ -102,6 +95,18 @@ GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const R
                             file_, table.columns[*column].name, table.columns[*column].words.front()));
     if (!units_.real)
         guesses_.push_back(fmt::format("{}: has units lj; one unit of length is drawn as 1 m", file_));
+}
+
+std::optional<double> GrainMeaning::unit_in_name(Column column, Dimension dimension) {
+    if (!column || !options_.units.empty()) return std::nullopt;
+    const std::string& name = names_[*column];
+    const std::string unit = unit_of_name(name);
+    const std::optional<double> size = unit_size_in(unit, dimension);
+    if (!size && parse_unit(unit))
+        guesses_.push_back(fmt::format(
+            "{}: the unit in the name of the column \"{}\" does not measure {}; it is passed over", file_,
+            excerpt(name), text_of(dimension).noun));
+    return size;
 }
 
 void GrainMeaning::find_places(const RawTable& table) {
@@ -122,10 +127,7 @@ void GrainMeaning::find_places(const RawTable& table) {
         throw UserError(
             fmt::format("{}: has no columns of places; name them by --columns x=...,y=...,z=...; it has {}",
                         file_, names_in(table)));
-    if (const auto unit = unit_in_name(table.columns[*place_[0]].name); unit && options_.units.empty())
-        place_unit_ = *unit;
-    else
-        place_unit_ = units_.length;
+    place_unit_ = unit_in_name(place_[0], Dimension::length).value_or(units_.length);
 }
 
 // For a file without a column z: throws UserError unless the grains are discs in a plane. They are discs if
@@ -158,8 +160,7 @@ void GrainMeaning::find_radius(const RawTable& table) {
                         "type), or name the column by "
                         "--columns radius=NAME; it has {}",
                         file_, names_in(table)));
-    const auto unit = unit_in_name(table.columns[*radius_].name);
-    radius_unit_ = unit && options_.units.empty() ? *unit : place_unit_;
+    radius_unit_ = unit_in_name(radius_, Dimension::length).value_or(place_unit_);
 }
 
 Vec3 GrainMeaning::place_of(const RawFrame& raw, std::size_t row) const {

@@ -14,6 +14,7 @@
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/frame.hpp"
+#include "engine/scene/text/units.hpp"
 #include "engine/state/contact.hpp"
 
 namespace grainreel {
@@ -71,6 +72,11 @@ class GrainMeaning {
     std::optional<WorldCell> cell(const RawFrame& raw) const;
 
   private:
+    using Column = std::optional<std::size_t>;
+
+    // The size in SI of the unit in a column's name, as in "x [mm]". None where there is none, where it
+    // measures something else, and where the user says the units of the file.
+    std::optional<double> unit_in_name(Column column, Dimension dimension);
     void find_places(const RawTable& table);
     void find_radius(const RawTable& table);
     Vec3 place_of(const RawFrame& raw, std::size_t row) const;
@@ -79,7 +85,6 @@ class GrainMeaning {
     void check_flat(const RawFrame& frame) const;
     void check_columns(const RawTable& table, const std::string& place) const;
 
-    using Column = std::optional<std::size_t>;
     double value(const RawTable& table, Column column, std::size_t row) const {
         return table.columns[*column].values[row];
     }

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
 
 namespace grainreel {
 
@@ -159,23 +159,6 @@ const std::vector<UnitSystem>& systems() {
     return all;
 }
 
-constexpr std::array<std::pair<const char*, double>, 16> in_names{{{"m", 1},
-                                                                   {"cm", 1e-2},
-                                                                   {"mm", 1e-3},
-                                                                   {"um", 1e-6},
-                                                                   {"µm", 1e-6},
-                                                                   {"micron", 1e-6},
-                                                                   {"nm", 1e-9},
-                                                                   {"s", 1},
-                                                                   {"ms", 1e-3},
-                                                                   {"us", 1e-6},
-                                                                   {"m/s", 1},
-                                                                   {"cm/s", 1e-2},
-                                                                   {"mm/s", 1e-3},
-                                                                   {"kg", 1},
-                                                                   {"g", 1e-3},
-                                                                   {"kg/m3", 1}}};
-
 }  // namespace
 
 std::optional<UnitSystem> unit_system(const std::string& name) {
@@ -190,14 +173,11 @@ std::vector<std::string> unit_names() {
     return names;
 }
 
-std::optional<double> unit_in_name(const std::string& column) {
-    const std::size_t from = column.find_first_of("[(");
-    const std::size_t to = column.find_first_of("])", from == std::string::npos ? 0 : from);
-    if (from == std::string::npos || to == std::string::npos) return std::nullopt;
-    const std::string unit = column.substr(from + 1, to - from - 1);
-    for (const auto& [name, value] : in_names)
-        if (unit == name) return value;
-    return std::nullopt;
+std::string unit_of_name(std::string_view name) {
+    const std::size_t open = name.find_first_of("[(");
+    if (open == std::string_view::npos) return {};
+    const std::size_t close = std::min(name.find_first_of("])", open), name.size());
+    return std::string(trimmed(name.substr(open + 1, close - open - 1)));
 }
 
 }  // namespace grainreel

@@ -46,8 +46,7 @@ struct UnitSystem {
 std::optional<UnitSystem> unit_system(const std::string& name);
 std::vector<std::string> unit_names();
 
-// The size in m, s or m/s of the unit in a column's name, as in "x [mm]" or "radius (um)"; none where the
-// name has no known unit.
-std::optional<double> unit_in_name(const std::string& column);
+// The unit in brackets after a column's name: "mm" for "x [mm]" and "x (mm)"; empty where there is none.
+std::string unit_of_name(std::string_view name);
 
 }  // namespace grainreel

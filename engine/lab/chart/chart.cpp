@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
-#include <sstream>
 
+#include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/text.hpp"
 #include "engine/lab/chart/accuracy/accuracy.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
 #include "engine/lab/chart/validation/validation.hpp"
@@ -27,23 +29,6 @@ const std::vector<Chart>& charts() {
     return all;
 }
 
-namespace {
-
-// The whole lines of a file. A line that was cut short when the program was killed is left out.
-std::vector<std::string> lines_of(const std::filesystem::path& path) {
-    std::ifstream in = read_plain(path);
-    std::ostringstream whole;
-    whole << in.rdbuf();
-    std::string text = whole.str();
-    text.resize(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);
-    std::vector<std::string> lines;
-    std::istringstream cut(text);
-    for (std::string line; std::getline(cut, line);) lines.push_back(line);
-    return lines;
-}
-
-}  // namespace
-
 std::string number(double value) {
     return fmt::format("{:.6g}", value);
 }
@@ -54,35 +39,39 @@ std::string ResultTable::join(const std::vector<std::string>& cells) {
 
 namespace {
 
-std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells;
-    std::istringstream cut(line);
-    for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
-    return cells;
-}
+using Rows = std::vector<std::vector<std::string>>;
 
-TextFile written_again(const std::filesystem::path& path, const std::vector<std::string>& lines) {
-    TextFile file(path);
-    for (const std::string& line : lines) file.write(line + "\n");
-    return file;
-}
-
-std::vector<std::string> with_header(const std::filesystem::path& path, const std::string& header) {
-    std::vector<std::string> lines = lines_of(path);
-    if (lines.empty()) lines.push_back(header);
-    if (lines[0] != header)
-        throw UserError(fmt::format("{}:1: is not a table of this chart; move it away, or give another --out",
-                                    path.string()));
-    return lines;
+// The whole rows of a table. A row that was cut short when the program was killed is left out.
+Rows whole_rows(const std::filesystem::path& path) {
+    std::ifstream text = read_plain(path);
+    CsvRows table(text, path);
+    Rows rows;
+    while (table.next() && table.ended()) rows.push_back(table.words());
+    return rows;
 }
 
 }  // namespace
 
+double value_in(const std::vector<std::string>& row, std::size_t column) {
+    const std::optional<double> value = number_in(row.at(column), Dialect::programs);
+    if (value) return *value;
+    throw UserError(fmt::format("a table of this chart has \"{}\" in place of a number; remove the row `{}`",
+                                excerpt(row[column]), excerpt(fmt::format("{}", fmt::join(row, ",")))));
+}
+
 ResultTable::ResultTable(const std::filesystem::path& path, const std::string& header, std::size_t keys)
     : keys_(keys), file_([&] {
-          const std::vector<std::string> lines = with_header(path, header);
-          for (std::size_t i = 1; i < lines.size(); ++i) note(cells_of(lines[i]));
-          return written_again(path, lines);
+          Rows rows = whole_rows(path);
+          if (!rows.empty() && join(rows.front()) != header)
+              throw UserError(fmt::format(
+                  "{}:1: is not a table of this chart; move it away, or give another --out", path.string()));
+          TextFile file(path);
+          file.write(header + "\n");
+          for (std::size_t i = 1; i < rows.size(); ++i) {
+              file.write(join(rows[i]) + "\n");
+              note(rows[i]);
+          }
+          return file;
       }()) {}
 
 void ResultTable::add(const std::vector<std::string>& row) {

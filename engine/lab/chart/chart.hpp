@@ -50,6 +50,8 @@ class ChartWork {
 
 // A number as a cell: six digits.
 std::string number(double value);
+// The number in a cell of a row. Throws UserError where it is none.
+double value_in(const std::vector<std::string>& row, std::size_t column);
 
 // A CSV file of results, written one by one. A chart that was stopped goes on with this file.
 class ResultTable {

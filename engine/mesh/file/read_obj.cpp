@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"

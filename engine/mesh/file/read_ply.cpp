@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 #include "engine/mesh/file/mesh_readers.hpp"

@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
 
 namespace grainreel {
@@ -112,12 +114,12 @@ void ImportRanges::write(const fs::path& folder) const {
 
 std::optional<std::array<double, 2>> imported_range(const fs::path& run, std::string_view quantity) {
     std::ifstream in = read_plain(run / ranges_name);
-    for (std::string line; std::getline(in, line);) {
-        const std::size_t first = line.find(','), second = line.find(',', first + 1);
-        if (second == std::string::npos || line.substr(0, first) != quantity) continue;
-        const std::array<double, 2> range{std::strtod(line.c_str() + first + 1, nullptr),
-                                          std::strtod(line.c_str() + second + 1, nullptr)};
-        if (range[0] < range[1]) return range;
+    CsvRows rows(in, run / ranges_name);
+    while (rows.next()) {
+        const std::vector<CsvCell>& cells = rows.cells();
+        if (cells.size() != 3 || cells[0].text != quantity) continue;
+        const std::optional<double> low = number_in(cells[1].text), high = number_in(cells[2].text);
+        if (low && high && *low < *high) return std::array{*low, *high};
     }
     return std::nullopt;
 }

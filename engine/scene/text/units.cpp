@@ -108,6 +108,15 @@ bool looks_like_unit(std::string_view text) {
     return text.find('@') == std::string_view::npos;
 }
 
+// A value times the size of its unit. 4.5 mm is 4.5 / 1000 and not 4.5 * 0.001, which is one ulp off. 2.5
+// g/cm3 are 2500 kg/m3, where udunits has a factor of 999.9999999999998.
+double scaled(double value, double scale) {
+    constexpr double rounding = 1e-13;
+    const double parts = std::round(1 / scale), times = std::round(scale);
+    if (parts > 1 && std::abs(parts * scale - 1) < rounding) return value / parts;
+    return times >= 1 && std::abs(scale / times - 1) < rounding ? value * times : value * scale;
+}
+
 // " is a time" for a unit of another known dimension, else " is not".
 std::string other_dimension(const Unit& unit) {
     for (const DimensionText& other : dimension_texts)
@@ -186,12 +195,17 @@ double parse_quantity(std::string_view text, Dimension dimension, const std::str
     if (!unit) throw fail(fmt::format("\"{}\" has the unknown unit \"{}\"", shown, excerpt(unit_text)));
     const std::optional<double> scale = UnitSystem::factor(unit, unit_system().parse(wanted.unit));
     if (!scale) throw fail(fmt::format("\"{}\"{}", shown, other_dimension(unit)));
-    // 4.5 mm is 4.5 / 1000 and not 4.5 * 0.001, which is one ulp off. 2.5 g/cm3 are 2500 kg/m3, where
-    // udunits has a factor of 999.9999999999998.
-    constexpr double rounding = 1e-13;
-    const double parts = std::round(1 / *scale), times = std::round(*scale);
-    if (parts > 1 && std::abs(parts * *scale - 1) < rounding) return value / parts;
-    return times >= 1 && std::abs(*scale / times - 1) < rounding ? value * times : value * *scale;
+    return scaled(value, *scale);
+}
+
+std::optional<double> unit_size_in(std::string_view text, Dimension dimension) {
+    if (!looks_like_unit(text)) return std::nullopt;
+    const std::lock_guard guard(units_lock);
+    const Unit unit = unit_system().parse(std::string(text));
+    if (!unit) return std::nullopt;
+    const std::optional<double> scale =
+        UnitSystem::factor(unit, unit_system().parse(text_of(dimension).unit));
+    return scale ? std::optional(scaled(1, *scale)) : std::nullopt;
 }
 
 namespace {

@@ -58,6 +58,10 @@ struct AnyUnit {
 // several threads.
 std::optional<AnyUnit> parse_unit(std::string_view text);
 
+// The size of a unit in the dimension's own: 0.001 for "mm" of a length. None for other words, and for units
+// that measure something else. Safe from several threads.
+std::optional<double> unit_size_in(std::string_view text, Dimension dimension);
+
 // Units in which a number reads well.
 
 // The size of `unit` in SI: 0.01 for "cm/s"; 1 for an empty text. Throws UserError, without a place, when

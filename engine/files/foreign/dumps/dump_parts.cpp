@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 

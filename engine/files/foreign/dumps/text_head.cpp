@@ -5,6 +5,7 @@
 
 #include <string_view>
 
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"

@@ -7,9 +7,9 @@
 #include <set>
 #include <string_view>
 
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/decimal.hpp"
 
 namespace grainreel {
 
@@ -174,7 +174,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_words = 20000;  // number of words that are looked at
 constexpr std::size_t many = 12;           // so many words do not have the same form by chance
 
-// How a number is written: digits after the point, characters from the "e" on, and significant digits.
+// How a number is written: digits after the point, characters from the "e" or "d" on, and significant digits.
 struct Form {
     std::size_t decimals = 0, exponent = 0, digits = 0;
     bool same(const Form& other) const { return decimals == other.decimals && exponent == other.exponent; }
@@ -182,7 +182,7 @@ struct Form {
 
 Form form_of(std::string_view word) {
     Form form;
-    const std::size_t e = word.find_first_of("eE");
+    const std::size_t e = word.find_first_of("eEdD");
     const std::string_view mantissa = word.substr(0, e);
     if (e != std::string_view::npos) form.exponent = word.size() - e;
     const std::size_t point = mantissa.find('.');
@@ -226,8 +226,7 @@ Row read_last_words(LineReader& lines, std::int64_t rows, std::vector<std::strin
 }  // namespace
 
 LastWord judge_last_word(std::string_view word, const std::vector<std::string>& others) {
-    double value = 0;
-    if (!any_number(word, value) || word.back() == '.') return LastWord::cut;
+    if (!number_in(word, Dialect::programs) || word.back() == '.') return LastWord::cut;
     const bool is_beginning = std::any_of(others.begin(), others.end(), [&](const std::string& other) {
         return other.size() > word.size() && other.starts_with(word);
     });

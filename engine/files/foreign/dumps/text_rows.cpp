@@ -7,6 +7,7 @@
 #include <map>
 #include <string_view>
 
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/decimal.hpp"
@@ -211,19 +212,19 @@ class RowReader {
     double read_word(std::string_view word, std::size_t c) {
         if (word.empty()) refuse_fields(c);
         if (kinds_[c] == Kind::word) return index_of(word, c);
-        double value = 0;
-        if (!any_number(word, value))
+        const std::optional<double> value = number_in(word, Dialect::programs);
+        if (!value)
             refuse_line(file_, line_,
                         fmt::format("\"{}\" is no number; one is expected in the column {}", excerpt(word),
                                     name_of(c)));
-        if (kinds_[c] == Kind::finite && !std::isfinite(value))
+        if (kinds_[c] == Kind::finite && !std::isfinite(*value))
             refuse_line(
                 file_, line_,
                 fmt::format(
                     "{} is \"{}\", which is no finite number; the run went wrong before it wrote this, "
                     "use the frames before it",
                     name_of(c), excerpt(word)));
-        return value;
+        return *value;
     }
 
     double index_of(std::string_view word, std::size_t c) {

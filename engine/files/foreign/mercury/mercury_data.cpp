@@ -9,6 +9,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/text_lines.hpp"
@@ -34,7 +35,7 @@ WorldCell box_between(const Numbers& corners) {
 // The number in a word of a row. column: number of the column, from 1. Throws UserError where it is no
 // number.
 double number_in_row(const TextLines& lines, std::string_view word, std::size_t column, const char* name) {
-    const std::optional<double> number = number_of(word);
+    const std::optional<double> number = number_in(word, Dialect::programs);
     if (!number)
         lines.fault(fmt::format("column {} ({}) has {}, which is no number", column, name, in_quotes(word)));
     return *number;
@@ -65,8 +66,8 @@ struct DataHeader {
 };
 
 std::optional<DataHeader> data_header_of(std::string_view line) {
-    const std::optional<std::int64_t> grains = whole_number_of(take_word(line));
-    const std::optional<double> time = number_of(take_word(line));
+    const std::optional<std::int64_t> grains = whole_in(take_word(line));
+    const std::optional<double> time = number_in(take_word(line), Dialect::programs);
     const std::optional<Numbers> corners = numbers_of(line);
     if (!grains || *grains < 0 || !time || !std::isfinite(*time) || !corners) return std::nullopt;
     if (corners->size() != 4 && corners->size() != 6) return std::nullopt;

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/triangle_mesh.hpp"
 #include "engine/base/vector.hpp"
@@ -59,7 +60,7 @@ class RestartLine {
     explicit RestartLine(std::string_view line) {
         for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
             if (first_word_.empty()) first_word_ = word;
-            const std::optional<double> number = number_of(word);
+            const std::optional<double> number = number_in(word, Dialect::programs);
             if (!number) {
                 entries_.emplace_back(lower_case(word), std::vector<double>());
             } else if (!entries_.empty()) {
@@ -213,7 +214,7 @@ MercuryRestart::MercuryRestart(const std::filesystem::path& file) : lines_(file)
 
 bool MercuryRestart::begins_part(std::string_view line) {
     const std::string_view word = take_word(line);
-    const std::optional<std::int64_t> count = whole_number_of(take_word(line));
+    const std::optional<std::int64_t> count = whole_in(take_word(line));
     if (grains_left_ > 0 || !count || !trimmed(line).empty()) return false;
     if (word == "Species")
         part_ = Part::species;

@@ -9,19 +9,22 @@
 #include <fmt/format.h>
 
 #include "engine/base/counted.hpp"
+#include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
 #include "engine/base/text.hpp"
+#include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/table_layout.hpp"
 #include "engine/files/foreign/tables/text_lines.hpp"
+#include "engine/scene/text/units.hpp"
 
 namespace grainreel {
 
 namespace {
 
-using Cells = std::vector<std::string_view>;
+using Cells = std::vector<CsvCell>;
 
 // A group of rows that follow each other in the file.
 struct RowGroup {
@@ -41,7 +44,7 @@ struct Ranges {
 
     void add(const Cells& cells, bool decimal_comma) {
         for (std::size_t i = 0; i < 4; ++i) {
-            const double value = cell_number(cells[i], decimal_comma).value_or(NAN);
+            const double value = cell_number(cells[i].text, decimal_comma).value_or(NAN);
             least[i] = std::min(least[i], value);
             most[i] = std::max(most[i], value);
         }
@@ -56,15 +59,6 @@ struct Ranges {
 
 std::optional<TableLayout> layout_at(const FileHead& head) {
     return layout_of(head.bytes, head.bytes.size() < kHeadBytes);
-}
-
-// How many seconds a unit of time has; 1 for a unit that is not known.
-double seconds_in(const std::string& unit) {
-    static const std::map<std::string, double> units{{"ms", 1e-3},      {"us", 1e-6}, {"\u00b5s", 1e-6},
-                                                     {"\u03bcs", 1e-6}, {"ns", 1e-9}, {"min", 60},
-                                                     {"h", 3600}};
-    const auto found = units.find(unit);
-    return found == units.end() ? 1.0 : found->second;
 }
 
 class NumberTable : public RawFile {
@@ -136,23 +130,23 @@ void NumberTable::find_clocks() {
         if (layout_.is_word[i]) continue;
         if (!time_ && (small_t || std::find(times.begin(), times.end(), bare) != times.end())) {
             time_ = i;
-            time_unit_ = seconds_in(unit_of_name(name));
+            time_unit_ = unit_size_in(unit_of_name(name), Dimension::time).value_or(1);
         }
         if (!step_ && std::find(steps.begin(), steps.end(), bare) != steps.end()) step_ = i;
     }
 }
 
 double NumberTable::clock_of(std::size_t column) const {
-    const std::optional<double> value = cell_number(cells_[column], layout_.decimal_comma);
+    const std::optional<double> value = cell_number(cells_[column].text, layout_.decimal_comma);
     if (!value || !std::isfinite(*value))
         lines_.fault(fmt::format("column {} ({}) has {}, which is no time", column + 1, layout_.names[column],
-                                 in_quotes(cells_[column])));
+                                 in_quotes(cells_[column].text)));
     return *value;
 }
 
 // Adds the present row to the frame of its time. Returns false where the file ends within the row.
 bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
-    split_cells(lines_.text(), layout_.separator, layout_.closed, cells_);
+    split_cells(lines_.text(), layout_.form, cells_);
     const std::optional<std::size_t> clock = time_ ? time_ : step_;
     if (cells_.size() < layout_.names.size() && !lines_.ended()) {
         if (clock && *clock + 1 < cells_.size()) last_ = clock_of(*clock);
@@ -190,7 +184,7 @@ void NumberTable::find_frames() {
     }
     const std::string name = lines_.file().string();
     const bool shut =
-        lines_.ended() || (layout_.closed && trimmed(lines_.text()).ends_with(layout_.separator));
+        lines_.ended() || (layout_.form.closed && trimmed(lines_.text()).ends_with(layout_.form.separator));
     const bool many = frames.size() > 1;
     if (!whole && !many)
         throw UserError(fmt::format("{}:{}: the file ends within a row; was it copied or written to the end?",
@@ -231,20 +225,20 @@ bool is_place(const std::string& name) {
 }
 
 void NumberTable::add_row(std::vector<ColumnFiller>& columns) const {
-    split_cells(lines_.text(), layout_.separator, layout_.closed, cells_);
+    split_cells(lines_.text(), layout_.form, cells_);
     if (cells_.size() != columns.size()) lines_.fault("the file has changed while it was read");
     for (std::size_t i = 0; i < columns.size(); ++i) {
         if (columns[i].kind() == CellKind::word) {
-            columns[i].add(cells_[i]);
+            columns[i].add(cells_[i].text);
             continue;
         }
-        const std::optional<double> value = cell_number(cells_[i], layout_.decimal_comma);
+        const std::optional<double> value = cell_number(cells_[i].text, layout_.decimal_comma);
         if (!value)
             lines_.fault(fmt::format("column {} ({}) has {}, which is no number", i + 1, columns[i].name(),
-                                     in_quotes(cells_[i])));
+                                     in_quotes(cells_[i].text)));
         if (!std::isfinite(*value) && is_place(columns[i].name()))
-            lines_.fault(
-                fmt::format("the grain has no place: its {} is {}", columns[i].name(), in_quotes(cells_[i])));
+            lines_.fault(fmt::format("the grain has no place: its {} is {}", columns[i].name(),
+                                     in_quotes(cells_[i].text)));
         columns[i].add_number(*value);
     }
 }

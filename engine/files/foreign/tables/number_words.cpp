@@ -1,63 +1,10 @@
 #include "engine/files/foreign/tables/number_words.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <limits>
+
+#include "engine/base/number_text.hpp"
 
 namespace grainreel {
-
-namespace {
-
-// The value of a number that is out of range for a double: 0 if it is too small, infinity if it is too large.
-double beyond_range(std::string_view word) {
-    const bool negative = word.front() == '-';
-    const std::size_t exponent = word.find_first_of("eE");
-    const bool small = exponent != std::string_view::npos ? word.substr(exponent + 1).starts_with('-')
-                                                          : word.find_first_of("123456789") > word.find('.');
-    const double size = small ? 0.0 : std::numeric_limits<double>::infinity();
-    return negative ? -size : size;
-}
-
-// The value of a word that goes on after the number which std::from_chars found. "#IND" after it makes NaN;
-// "d" or "D" begins an exponent of Fortran; any other rest is no number.
-std::optional<double> with_rest(std::string_view word, double value, std::string_view rest) {
-    if (rest.empty()) return value;
-    if (rest.front() == '#') return std::numeric_limits<double>::quiet_NaN();
-    if (rest.front() != 'd' && rest.front() != 'D') return std::nullopt;
-    std::string with_e(word);
-    with_e[word.size() - rest.size()] = 'e';
-    if (with_e.find_first_of("dD") != std::string::npos) return std::nullopt;
-    return number_of(with_e);
-}
-
-}  // namespace
-
-std::optional<double> number_of(std::string_view word) {
-    if (word.starts_with('+')) {
-        word.remove_prefix(1);
-        if (word.starts_with('-') || word.starts_with('+')) return std::nullopt;
-    }
-    double value = 0;
-    const char* end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, value);
-    if (error == std::errc::invalid_argument) return std::nullopt;
-    if (error == std::errc::result_out_of_range) value = beyond_range(word);
-    if (stop == end) return value;
-    return with_rest(word, value, {stop, static_cast<std::size_t>(end - stop)});
-}
-
-std::optional<std::int64_t> whole_number_of(std::string_view word) {
-    if (word.starts_with('+')) {
-        word.remove_prefix(1);
-        if (word.starts_with('-')) return std::nullopt;
-    }
-    std::int64_t value = 0;
-    const char* end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, value);
-    if (error != std::errc{} || stop != end) return std::nullopt;
-    return value;
-}
 
 std::string_view take_word(std::string_view& text) {
     const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; };
@@ -91,7 +38,7 @@ std::size_t count_words(std::string_view line, std::size_t most) {
 std::optional<std::vector<double>> numbers_of(std::string_view line) {
     std::vector<double> numbers;
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
-        const std::optional<double> number = number_of(word);
+        const std::optional<double> number = number_in(word, Dialect::programs);
         if (!number) return std::nullopt;
         numbers.push_back(*number);
     }
@@ -140,7 +87,7 @@ bool ColumnFiller::add_word(std::string_view word) {
 
 bool ColumnFiller::add(std::string_view word) {
     if (kind_ == CellKind::number) {
-        const std::optional<double> value = number_of(word);
+        const std::optional<double> value = number_in(word, Dialect::programs);
         if (value) column_.values.push_back(*value);
         return value.has_value();
     }
@@ -156,14 +103,12 @@ RawColumn ColumnFiller::finish() {
     if (kind_ == CellKind::logical) column_.words = {"F", "T"};
     if (kind_ != CellKind::word && kind_ != CellKind::word_or_number) return std::move(column_);
     const bool whole = kind_ == CellKind::word_or_number &&
-                       std::all_of(numbers_.begin(), numbers_.end(), [](const auto& entry) {
-                           return whole_number_of(entry.first).has_value();
-                       });
+                       std::all_of(numbers_.begin(), numbers_.end(),
+                                   [](const auto& entry) { return whole_in(entry.first).has_value(); });
     std::vector<double> meant(numbers_.size());
     double place = 0;
     for (const auto& [word, number] : numbers_) {
-        meant[static_cast<std::size_t>(number)] =
-            whole ? static_cast<double>(*whole_number_of(word)) : place++;
+        meant[static_cast<std::size_t>(number)] = whole ? static_cast<double>(*whole_in(word)) : place++;
         if (!whole) column_.words.push_back(word);
     }
     for (double& value : column_.values) value = meant[static_cast<std::size_t>(value)];

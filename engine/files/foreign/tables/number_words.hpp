@@ -1,8 +1,7 @@
-// Reads words and numbers as programs write them into text files, and fills columns of a table with them.
+// Splits lines into words as programs write them, and fills columns of a table with words and numbers.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,12 +11,6 @@
 #include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {
-
-// The number in "1.5", "+1.5", ".5", "1.5d0" (Fortran), "nan", "inf" or "-1.#IND" (NaN). A number too small
-// for a double is 0, one too large is infinite. None where the whole word is not a number.
-std::optional<double> number_of(std::string_view word);
-// The number in "324", "+324" or "-324"; none for anything else and for numbers of more than 64 bits.
-std::optional<std::int64_t> whole_number_of(std::string_view word);
 
 // Removes the first word from the text and returns it; empty at the end.
 std::string_view take_word(std::string_view& text);

@@ -6,15 +6,17 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
+#include "engine/scene/text/units.hpp"
 
 namespace grainreel {
 
 namespace {
 
-using Cells = std::vector<std::string_view>;
+using Cells = std::vector<CsvCell>;
 
 constexpr std::size_t most_rows = 40;  // rows from which the layout is found
 
@@ -70,9 +72,9 @@ bool is_number(std::string_view cell, bool decimal_comma) {
 // Whether the cells can be names of columns: none is a number, and not all are empty.
 bool are_names(const Cells& cells, bool decimal_comma) {
     const bool number = std::any_of(cells.begin(), cells.end(),
-                                    [&](std::string_view cell) { return is_number(cell, decimal_comma); });
+                                    [&](const CsvCell& cell) { return is_number(cell.text, decimal_comma); });
     const bool any =
-        std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
+        std::any_of(cells.begin(), cells.end(), [](const CsvCell& cell) { return !cell.text.empty(); });
     return any && !number;
 }
 
@@ -90,7 +92,7 @@ std::string name_of(std::string_view cell, std::size_t column) {
 void name_columns(TableLayout& layout, const Cells& cells) {
     layout.named = true;
     for (std::size_t i = 0; i < layout.names.size(); ++i)
-        layout.names[i] = name_of(i < cells.size() ? cells[i] : std::string_view{}, i);
+        layout.names[i] = name_of(i < cells.size() ? cells[i].text : std::string_view{}, i);
 }
 
 // The names in YADE's "#format x_y_z_r_matId".
@@ -100,7 +102,7 @@ std::optional<Cells> format_of_yade(const Sample& sample) {
         std::string_view rest = trimmed(line);
         Cells names;
         for (std::size_t at = rest.find('_');; at = rest.find('_')) {
-            names.push_back(rest.substr(0, at));
+            names.push_back({rest.substr(0, at)});
             if (at == std::string_view::npos) return names;
             rest.remove_prefix(at + 1);
         }
@@ -118,9 +120,11 @@ void name_by_remarks(TableLayout& layout, const Sample& sample) {
     if (sample.remarks.empty()) return;
     std::string_view line = sample.remarks.back();
     line.remove_prefix(std::min(line.find_first_not_of("#%/ \t"), line.size()));
-    for (const char separator : {layout.separator, ' '}) {
+    for (const char separator : {layout.form.separator, ' '}) {
+        CsvForm form = layout.form;
+        form.separator = separator;
         Cells cells;
-        split_cells(line, separator, layout.closed, cells);
+        split_cells(line, form, cells);
         if (cells.size() != layout.names.size() || !are_names(cells, layout.decimal_comma)) continue;
         name_columns(layout, cells);
         return;
@@ -137,30 +141,39 @@ std::string program_of(const TableLayout& layout) {
     return {};
 }
 
-// Whether a row holds the units of the columns: "m", "[mm]", "-".
+// The word in a cell of units: "mm" in "mm", "[mm]" and "(mm)".
+std::string_view unit_word(std::string_view cell) {
+    cell = trimmed(cell);
+    if (cell.size() > 1 && (cell.front() == '[' || cell.front() == '('))
+        cell = cell.substr(1, cell.size() - 2);
+    return trimmed(cell);
+}
+
+// Whether a word names a unit, perhaps in another case than it should ("MM"). A long word does not, so that
+// udunits' table is not read for the second line of any text.
+bool names_unit(std::string_view word) {
+    constexpr std::size_t longest = 12;
+    return word == "-" || (word.size() <= longest && (parse_unit(word) || parse_unit(lower_case(word))));
+}
+
+// Whether a row holds the units of the columns: "m", "[mm]", "-". Most of its cells must, because in
+// "1,1,1,b" the "b" is a type of grains and no barn.
 bool are_units(const Cells& cells) {
-    constexpr std::array<std::string_view, 22> known{
-        "m",    "cm",   "mm", "um", "µm",    "micron", "nm",  "s", "ms", "us",  "m/s",
-        "cm/s", "mm/s", "kg", "g",  "kg/m3", "rad/s",  "1/s", "n", "pa", "rad", "-"};
-    std::size_t units = 0;
-    for (std::string_view cell : cells) {
-        cell = trimmed(cell);
-        if (cell.size() > 1 && (cell.front() == '[' || cell.front() == '('))
-            cell = cell.substr(1, cell.size() - 2);
-        const std::string word = lower_case(trimmed(cell));
-        const bool unit = std::find(known.begin(), known.end(), word) != known.end();
-        if (!unit && !word.empty() && word != "1") return false;
-        units += unit;
+    std::size_t units = 0, others = 0;
+    for (const CsvCell& cell : cells) {
+        const std::string_view word = unit_word(cell.text);
+        if (word.empty()) continue;
+        const bool unit = names_unit(word);
+        if (!unit && word != "1") return false;
+        ++(unit ? units : others);
     }
-    return units > 0;
+    return units > others;
 }
 
 // Moves the units from a row of their own into the names: "x [mm]".
 void add_units(TableLayout& layout, const Cells& cells) {
     for (std::size_t i = 0; i < std::min(cells.size(), layout.names.size()); ++i) {
-        std::string unit(trimmed(cells[i]));
-        if (unit.size() > 1 && (unit.front() == '[' || unit.front() == '('))
-            unit = unit.substr(1, unit.size() - 2);
+        const std::string_view unit = unit_word(cells[i].text);
         if (!unit.empty() && unit != "-" && unit != "1") layout.names[i] += fmt::format(" [{}]", unit);
     }
 }
@@ -177,23 +190,23 @@ bool must_be_numbers(const std::string& name) {
 // Finds out for each column whether it holds words. A column of places, velocities or radii counts as one of
 // words only if at least half of its cells are words; otherwise a word there is a mistake in its row. Returns
 // none where a row has another number of cells than the others.
-std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const Notation& writing,
-                                          const std::vector<std::string>& names, bool closed,
+std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const TableLayout& layout,
                                           bool last_may_be_cut) {
-    const std::size_t columns = names.size();
+    const std::size_t columns = layout.names.size();
     std::vector<std::size_t> words(columns, 0);
     std::size_t rows = 0;
     Cells cells;
     for (std::size_t i = first; i < sample.filled.size(); ++i) {
-        split_cells(sample.filled[i], writing.separator, closed, cells);
+        split_cells(sample.filled[i], layout.form, cells);
         if (cells.size() < columns && last_may_be_cut && i + 1 == sample.filled.size() && i > first) break;
         if (cells.size() != columns) return std::nullopt;
-        for (std::size_t k = 0; k < columns; ++k) words[k] += !cell_number(cells[k], writing.decimal_comma);
+        for (std::size_t k = 0; k < columns; ++k)
+            words[k] += !cell_number(cells[k].text, layout.decimal_comma);
         ++rows;
     }
     std::vector<bool> is_word(columns);
     for (std::size_t k = 0; k < columns; ++k)
-        is_word[k] = words[k] > 0 && (2 * words[k] >= rows || !must_be_numbers(names[k]));
+        is_word[k] = words[k] > 0 && (2 * words[k] >= rows || !must_be_numbers(layout.names[k]));
     return is_word;
 }
 
@@ -207,12 +220,14 @@ bool names_places(const std::vector<std::string>& names) {
 
 // The layout of the sample if it is written in this way; none where it is not, or is no table of grains.
 std::optional<TableLayout> layout_by(const Sample& sample, const Notation& writing, bool whole) {
-    Cells first;
-    const bool closed =
+    TableLayout layout;
+    layout.form = {.separator = writing.separator, .quotes = true};
+    layout.form.closed =
         writing.separator != ' ' && trimmed_blanks(sample.filled.front()).ends_with(writing.separator);
-    split_cells(sample.filled.front(), writing.separator, closed, first);
+    layout.decimal_comma = writing.decimal_comma;
+    Cells first;
+    split_cells(sample.filled.front(), layout.form, first);
     if (first.size() < 2) return std::nullopt;
-    TableLayout layout{writing.separator, writing.decimal_comma, closed, false, {}, {}, 0, {}};
     layout.names.resize(first.size());
     for (std::size_t i = 0; i < first.size(); ++i) layout.names[i] = fmt::format("c{}", i + 1);
     const bool header = are_names(first, writing.decimal_comma);
@@ -224,13 +239,13 @@ std::optional<TableLayout> layout_by(const Sample& sample, const Notation& writi
     std::size_t rows_from = header ? 1 : 0;
     if (header && sample.filled.size() > 1) {
         Cells units;
-        split_cells(sample.filled[1], writing.separator, closed, units);
+        split_cells(sample.filled[1], layout.form, units);
         if (units.size() == first.size() && are_units(units)) {
             add_units(layout, units);
             rows_from = 2;
         }
     }
-    const auto words = words_in(sample, rows_from, writing, layout.names, closed, whole);
+    const auto words = words_in(sample, rows_from, layout, whole);
     if (!words) return std::nullopt;
     layout.is_word = *words;
     layout.head_lines = rows_from > 0 ? sample.numbers[rows_from - 1] : sample.numbers.front() - 1;
@@ -263,35 +278,14 @@ std::optional<TableLayout> layout_of(std::string_view text, bool whole) {
     return std::nullopt;
 }
 
-void split_cells(std::string_view line, char separator, bool closed, std::vector<std::string_view>& cells) {
-    cells.clear();
-    const bool blanks = separator == ' ';
-    const auto ends = [&](char c) { return blanks ? c == ' ' || c == '\t' : c == separator; };
-    line = blanks ? trimmed(line) : trimmed_blanks(line);
-    for (bool more = !line.empty(); more;) {
-        while (line.starts_with(' ') || (separator != '\t' && line.starts_with('\t'))) line.remove_prefix(1);
-        const bool quote = line.starts_with('"') || line.starts_with('\'');
-        std::size_t close = quote ? line.find(line.front(), 1) : std::string_view::npos;
-        while (close != std::string_view::npos && close + 1 < line.size() && line[close + 1] == line[close])
-            close = line.find(line.front(), close + 2);  // a doubled quote stands for one
-        std::size_t end = close == std::string_view::npos ? 0 : close + 1;
-        while (end < line.size() && !ends(line[end])) ++end;
-        cells.push_back(close == std::string_view::npos ? trimmed(line.substr(0, end))
-                                                        : line.substr(1, close - 1));
-        more = end < line.size();
-        line.remove_prefix(std::min(end + 1, line.size()));
-    }
-    if (closed && cells.size() > 1 && cells.back().empty()) cells.pop_back();
-}
-
 std::optional<double> cell_number(std::string_view cell, bool decimal_comma) {
     if (cell.empty() || cell == "NA" || cell == "N/A" || cell == "null" || cell == "NULL")
         return std::numeric_limits<double>::quiet_NaN();
-    if (!decimal_comma || cell.find(',') == std::string_view::npos) return number_of(cell);
+    if (!decimal_comma || cell.find(',') == std::string_view::npos) return number_in(cell, Dialect::programs);
     std::string with_point(cell);
     if (with_point.find('.') != std::string::npos) return std::nullopt;
     with_point[with_point.find(',')] = '.';
-    return number_of(with_point);
+    return number_in(with_point, Dialect::programs);
 }
 
 bool is_remark(std::string_view line) {
@@ -301,14 +295,6 @@ bool is_remark(std::string_view line) {
 
 std::string bare_name(std::string_view name) {
     return lower_case(trimmed(name.substr(0, name.find_first_of("[("))));
-}
-
-std::string unit_of_name(std::string_view name) {
-    const std::size_t open = name.find_first_of("[(");
-    if (open == std::string_view::npos) return {};
-    const std::size_t close = name.find_first_of("])", open);
-    return std::string(
-        trimmed(name.substr(open + 1, close == std::string_view::npos ? close : close - open - 1)));
 }
 
 }  // namespace grainreel

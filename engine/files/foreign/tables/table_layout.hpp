@@ -9,12 +9,13 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/csv.hpp"
+
 namespace grainreel {
 
 struct TableLayout {
-    char separator = ',';        // ' ' stands for any number of blanks and tabs
+    CsvForm form;
     bool decimal_comma = false;  // "1,5"
-    bool closed = false;         // each row ends with a separator, after which there is no cell
     bool named = false;          // the file names its columns; otherwise they are "c1", "c2", ...
     std::vector<std::string> names;
     std::vector<bool> is_word;     // for each column: whether it holds words
@@ -25,10 +26,6 @@ struct TableLayout {
 // The layout of a text; none where it is no table. whole: the text is the whole file.
 std::optional<TableLayout> layout_of(std::string_view text, bool whole);
 
-// The cells of a row, without blanks and quotes around them. In `closed` rows there is no cell after the last
-// separator.
-void split_cells(std::string_view line, char separator, bool closed, std::vector<std::string_view>& cells);
-
 // The number in a cell: NaN for an empty one and for "NA", none where it is not a number.
 std::optional<double> cell_number(std::string_view cell, bool decimal_comma);
 
@@ -37,7 +34,5 @@ bool is_remark(std::string_view line);
 
 // A name without its unit and in lower case: "x" for "X [mm]".
 std::string bare_name(std::string_view name);
-// The unit in brackets after a name, "mm"; empty where there is none.
-std::string unit_of_name(std::string_view name);
 
 }  // namespace grainreel

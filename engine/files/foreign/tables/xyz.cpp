@@ -14,6 +14,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/text_lines.hpp"
@@ -96,7 +97,7 @@ std::vector<double> list_of(const std::string& value, const char* key) {
         if (std::string_view(",;[]{}()").find(c) != std::string_view::npos) c = ' ';
     std::vector<double> numbers;
     for (const std::string_view word : words_of(text)) {
-        const std::optional<double> number = number_of(word);
+        const std::optional<double> number = number_in(word, Dialect::programs);
         if (!number || !std::isfinite(*number))
             throw UserError(fmt::format("{} has {}, which is no number", key, in_quotes(word)));
         numbers.push_back(*number);
@@ -135,7 +136,7 @@ XyzField field_of(std::string_view name, std::string_view kind, std::string_view
     if (kind.size() != 1 || std::string_view("SRIL").find(kind.front()) == std::string_view::npos)
         throw UserError(fmt::format("Properties gives {} the type {}; it is S, R, I or L, {}",
                                     in_quotes(name), in_quotes(kind), what));
-    const std::optional<std::int64_t> columns = whole_number_of(count);
+    const std::optional<std::int64_t> columns = whole_in(count);
     if (!columns || *columns < 1 || *columns > static_cast<std::int64_t>(most_columns))
         throw UserError(fmt::format("Properties gives {} {} columns; it is a number from 1 on, {}",
                                     in_quotes(name), in_quotes(count), what));
@@ -174,7 +175,7 @@ std::optional<std::int64_t> step_of_lammps(std::string_view line) {
     const std::size_t at = line.find(mark);
     if (at == std::string_view::npos) return std::nullopt;
     line.remove_prefix(at + mark.size());
-    return whole_number_of(take_word(line));
+    return whole_in(take_word(line));
 }
 
 // The entries of a line. Blanks may stand around "=", and values may stand in "", '', {} or [].
@@ -217,8 +218,8 @@ XyzHeader xyz_header_of(std::string_view line) {
         if (!value) continue;
         if (key == "properties") header.fields = fields_of(*value);
         if (key == "pbc") read_periods(*value, box);
-        if (key == "time") header.time = number_of(*value);
-        if (key == "step" || key == "timestep") header.step = whole_number_of(*value);
+        if (key == "time") header.time = number_in(*value, Dialect::programs);
+        if (key == "step" || key == "timestep") header.step = whole_in(*value);
         if (key == "origin") {
             const std::vector<double> n = list_of(*value, "Origin");
             if (n.size() != 3) throw UserError("Origin is three numbers");
@@ -239,7 +240,7 @@ constexpr std::size_t most_words = std::size_t{1} << 16;  // words of a row
 
 // The count in a line that has nothing else; none for other lines.
 std::optional<std::int64_t> count_of(std::string_view line) {
-    const std::optional<std::int64_t> count = whole_number_of(trimmed(line));
+    const std::optional<std::int64_t> count = whole_in(trimmed(line));
     return count && *count >= 0 ? count : std::nullopt;
 }
 
@@ -266,7 +267,7 @@ std::vector<ColumnFiller> plain_columns(const Words& row) {
     for (const char* name : {"x", "y", "z"}) columns.emplace_back(name, CellKind::number);
     for (std::size_t i = columns.size(); i < row.size(); ++i)
         columns.emplace_back(fmt::format("c{}", i + 1),
-                             number_of(row[i]) ? CellKind::number : CellKind::word);
+                             number_in(row[i], Dialect::programs) ? CellKind::number : CellKind::word);
     return columns;
 }
 
@@ -395,7 +396,9 @@ bool takes_xyz(const FileHead& head) {
     if (is_extended_xyz(lines[1])) return true;
     if (*count == 0) return count_of(lines[2]).has_value();
     const Words row = words_of(lines[2]);
-    return row.size() >= 4 && number_of(row[1]) && number_of(row[2]) && number_of(row[3]);
+    return row.size() >= 4 && std::all_of(row.begin() + 1, row.begin() + 4, [](std::string_view word) {
+               return number_in(word, Dialect::programs).has_value();
+           });
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/byte_source.hpp"

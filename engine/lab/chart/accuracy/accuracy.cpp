@@ -133,7 +133,7 @@ bool run_beds(bool quick, ResultTable& table, ChartWork& work) {
 std::string differences_table(const ResultTable& beds) {
     std::vector<BedRow> rows;
     for (const auto& cells : beds.rows()) {
-        const auto value = [&](std::size_t k) { return std::stod(cells.at(k)); };
+        const auto value = [&](std::size_t k) { return value_in(cells, k); };
         rows.push_back({cells.at(0), {value(2), value(3), value(4), value(5), value(6)}});
     }
     std::string text =

@@ -89,7 +89,7 @@ void summarise_gases(const ChartRequest& request, const ResultTable& table) {
             std::vector<double> values;
             for (const auto& row : table.rows())
                 if (row.at(0) == number(stiffness) && row.at(2) == number(time))
-                    values.push_back(std::stod(row.at(3)));
+                    values.push_back(value_in(row, 3));
             const SeedMean is = seed_mean_of(values);
             text += fmt::format("{},{},{:.4f},{:.4f},{:.4f},{:+.1f}\n", number(stiffness), time, is.mean,
                                 is.error, haff(time), 100 * (is.mean / haff(time) - 1));

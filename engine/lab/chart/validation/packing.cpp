@@ -247,8 +247,8 @@ std::vector<PackingState> states_in(const ResultTable& table, double friction, i
     std::vector<PackingState> states;
     for (const auto& row : table.rows()) {
         if (row.at(0) != number(friction) || row.at(1) != number(seed) || row.at(2) == "end") continue;
-        states.push_back({std::stod(row.at(3)), std::stod(row.at(4)), std::stod(row.at(5)),
-                          std::stod(row.at(6)), std::stod(row.at(7))});
+        states.push_back(
+            {value_in(row, 3), value_in(row, 4), value_in(row, 5), value_in(row, 6), value_in(row, 7)});
     }
     return states;
 }

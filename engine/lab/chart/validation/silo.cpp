@@ -189,7 +189,7 @@ struct WallLoad {
 std::vector<WallLoad> loads_in(const ResultTable& table, double friction) {
     std::vector<WallLoad> loads;
     for (const auto& row : table.rows()) {
-        const auto value = [&](std::size_t k) { return std::stod(row.at(k)); };
+        const auto value = [&](std::size_t k) { return value_in(row, k); };
         if (row.at(0) != number(friction)) continue;
         loads.push_back({value(1), {value(3), value(4), value(5), value(6), value(7), value(8)}});
     }

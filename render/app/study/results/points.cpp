@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <sstream>
 
+#include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/scene_file.hpp"
 
@@ -67,57 +68,20 @@ std::string interval_text(const MeanInterval& interval) {
     return fmt::format("{:.4g} ± {:.2g}", interval.mean, interval.half);
 }
 
-namespace {
-
-struct Cell {
-    std::string text;
-    std::size_t column = 0;  // column of its first character, from 1
-};
-
-std::vector<Cell> cells_of(const std::string& line) {
-    std::vector<Cell> cells;
-    for (std::size_t begin = 0; begin <= line.size();) {
-        std::size_t end = std::min(line.find(',', begin), line.size());
-        const std::size_t first = std::min(line.find_first_not_of(" \t", begin), end);
-        std::size_t last = end;
-        while (last > first && (line[last - 1] == ' ' || line[last - 1] == '\t')) --last;
-        cells.push_back({line.substr(first, last - first), first + 1});
-        begin = end + 1;
-    }
-    return cells;
-}
-
-std::optional<double> number_of(const std::string& text) {
-    double value = 0;
-    const char* const end = text.data() + text.size();
-    const auto read = std::from_chars(text.data(), end, value);
-    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(value)) return std::nullopt;
-    return value;
-}
-
-}  // namespace
-
 std::vector<ReferencePoint> read_reference(const std::filesystem::path& file) {
     std::istringstream text(load_scene_file(file));
+    CsvRows rows(text, file, {.remarks = "#"});
     std::vector<ReferencePoint> points;
-    bool may_be_heading = true;
-    std::size_t number = 0;
-    for (std::string line; std::getline(text, line);) {
-        if (++number == 1) drop_byte_order_mark(line);
-        if (!line.empty() && line.back() == '\r') line.pop_back();
-        if (line.empty() || line.front() == '#') continue;
-        const std::vector<Cell> cells = cells_of(line);
-        const bool heading = may_be_heading && !number_of(cells[0].text);
-        may_be_heading = false;
-        if (heading) continue;
-        const auto fail = [&](std::size_t column, const std::string& what) {
-            throw UserError(fmt::format("{}:{}:{}: {}; a row has x, y and, where it is known, the error of y",
-                                        file.string(), number, column, what));
-        };
+    const auto fail = [&](std::size_t column, const std::string& what) {
+        rows.fail(column, what + "; a row has x, y and, where it is known, the error of y");
+    };
+    for (bool may_be_heading = true; rows.next(); may_be_heading = false) {
+        const std::vector<CsvCell>& cells = rows.cells();
+        if (may_be_heading && !number_in(cells[0].text)) continue;
         if (cells.size() < 2 || cells.size() > 3) fail(1, fmt::format("there are {} numbers", cells.size()));
         double values[3] = {};
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            const auto value = number_of(cells[i].text);
+            const auto value = number_in(cells[i].text);
             if (!value) fail(cells[i].column, fmt::format("\"{}\" is no number", excerpt(cells[i].text)));
             values[i] = *value;
         }
