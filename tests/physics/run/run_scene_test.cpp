@@ -36,7 +36,7 @@ TEST(RunScene, InAFolderAndInMemoryIsTheSameRun) {
     ASSERT_EQ(in_memory.frame.size(), 50u);
     EXPECT_NEAR(in_memory.frame.time, 0.05, 1e-4);
     EXPECT_EQ(in_memory.frame.position, in_folder.frame.position);
-    EXPECT_EQ(status_in_run_json(how.folder / "run.json"), "complete");
+    EXPECT_EQ(read_run_json(how.folder / "run.json").status, "complete");
     EXPECT_EQ(TrajectoryReader(how.folder / "trajectory.nc").info().species.size(), 2u);
     EXPECT_FALSE(std::filesystem::exists(how.folder / kFilmMoments));
 }
@@ -58,7 +58,7 @@ TEST(RunScene, ShowsItsFramesAndStopsWhenToldTo) {
                     testing::Pointwise(testing::DoubleNear(1e-4), std::vector<double>{0, 0.01, 0.02, 0.03}));
         EXPECT_NEAR(end.frame.time, 0.03, 1e-4);
     }
-    EXPECT_EQ(status_in_run_json(here / "run/run.json"), "interrupted");
+    EXPECT_EQ(read_run_json(here / "run/run.json").status, "interrupted");
 }
 
 TEST(RunScene, SaysWhatIsWrong) {
@@ -76,7 +76,7 @@ TEST(RunScene, SaysWhatIsWrong) {
     } catch (const RunError& problem) {
         EXPECT_STREQ(problem.what(), "no more ink");
     }
-    EXPECT_EQ(status_in_run_json(how.folder / "run.json"), "failed");
+    EXPECT_EQ(read_run_json(how.folder / "run.json").status, "failed");
 }
 
 // The run is continued as `resume` does it, but without a film.
@@ -98,7 +98,7 @@ TEST(RunScene, GoesOnInItsFolder) {
     EXPECT_EQ(run.run().exit_status, 0);
     const SceneEnd whole = run_scene(fifty());
     EXPECT_EQ(run.simulation().frame().position, whole.frame.position);
-    EXPECT_EQ(status_in_run_json(how.folder / "run.json"), "complete");
+    EXPECT_EQ(read_run_json(how.folder / "run.json").status, "complete");
 }
 
 }  // namespace
