@@ -88,7 +88,7 @@ IsOurs is_ours_in_meshes(const fs::path& run) {
 // The first entry in a run's folder that no run has written. In the folder of a comparison, the folders of
 // its runs count as entries of runs.
 std::optional<fs::path> foreign_file(const fs::path& run) {
-    const std::vector<std::string> panels = panels_in_run_json(run / "run.json");
+    const std::vector<std::string> panels = read_run_json(run / "run.json").record.panels;
     const auto is_panel = [&](const fs::path& name) {
         return std::find(panels.begin(), panels.end(), name.string()) != panels.end();
     };
@@ -134,7 +134,8 @@ void check_holds_run(const fs::path& path) {
 
 // --force may replace only a run and nothing else, and no run may be going on there.
 void check_replaceable(const fs::path& path) {
-    for (const std::string& panel : panels_in_run_json(path / "run.json"))
+    const RunJson record = read_run_json(path / "run.json").record;
+    for (const std::string& panel : record.panels)
         if (panel.find('/') == std::string::npos) check_not_in_use(path / panel);
     if (const auto foreign = foreign_file(path)) {
         throw UserError(

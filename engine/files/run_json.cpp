@@ -6,12 +6,16 @@
 #include <unistd.h>
 #include <xxhash.h>
 #include <array>
+#include <charconv>
 #include <chrono>
+#include <concepts>
 #include <ctime>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
@@ -187,126 +191,196 @@ void write_run_json(const std::filesystem::path& path, const RunJson& r) {
 
 namespace {
 
-std::string text_in(const std::filesystem::path& path, const char* key) {
-    std::ifstream file = read_plain(path);
-    const Json document = Json::parse(file, nullptr, false);
-    if (!document.is_object() || !document.contains(key) || !document[key].is_string()) return {};
-    return document[key].get<std::string>();
+// What the file has is taken over by its form. Each of these functions tells whether the value had that form;
+// else `to` stays as it is.
+bool take(const Json& from, std::string& to) {
+    if (!from.is_string()) return false;
+    to = from.get<std::string>();
+    return true;
 }
 
-}  // namespace
-
-std::string scene_in_run_json(const std::filesystem::path& path) {
-    return text_in(path, "scene");
+bool take(const Json& from, double& to) {
+    if (!from.is_number()) return false;
+    to = from.get<double>();
+    return true;
 }
 
-std::string status_in_run_json(const std::filesystem::path& path) {
-    return text_in(path, "status");
+template <std::integral Number>
+bool take(const Json& from, Number& to) {
+    const bool fits = from.is_number_unsigned()
+                          ? std::in_range<Number>(from.get<std::uint64_t>())
+                          : from.is_number_integer() && std::in_range<Number>(from.get<std::int64_t>());
+    if (fits) to = from.get<Number>();
+    return fits;
 }
 
-bool lacks_only_page(const std::filesystem::path& path) {
-    std::ifstream file = read_plain(path);
-    const Json document = Json::parse(file, nullptr, false);
-    return document.is_object() && document.contains("missing") &&
-           document["missing"] == Json::array({kPageIsMissing});
+template <class Value>
+bool take(const Json& from, const char* key, Value& to);
+
+bool take(const Json& from, AcceptedKey& to) {
+    take(from, "key", to.key);
+    take(from, "then", to.then);
+    take(from, "now", to.now);
+    return take(from, "step", to.step);
 }
 
-void complete_run_json(const std::filesystem::path& path, const std::string& page) {
-    std::ifstream file = read_plain(path);
-    Json document = Json::parse(file, nullptr, false);
-    if (!document.is_object() || !document["written"].is_object())
-        throw RunError(fmt::format("{}: cannot be read", path.string()));
-    document["status"] = to_string(RunStatus::complete);
-    document["exit_status"] = 0;
-    document["written"]["page"] = text_or_null(page);
-    document["missing"] = Json::array();
-    replace_file(path, text_of(document));
-}
-
-std::vector<std::string> panels_in_run_json(const std::filesystem::path& path) {
-    std::ifstream file = read_plain(path);
-    const Json document = Json::parse(file, nullptr, false);
-    std::vector<std::string> panels;
-    if (!document.is_object() || !document.contains("panels")) return panels;
-    for (const Json& panel : document["panels"])
-        if (panel.is_string()) panels.push_back(panel.get<std::string>());
-    return panels;
-}
-
-std::vector<AcceptedKey> accepted_in_run_json(const std::filesystem::path& path) {
-    std::ifstream file = read_plain(path);
-    const Json document = Json::parse(file, nullptr, false);
-    std::vector<AcceptedKey> keys;
-    if (!document.is_object() || !document.contains("accepted")) return keys;
-    const auto words = [](const Json& one, const char* name) {
-        return one.contains(name) && one[name].is_string() ? one[name].get<std::string>() : "";
-    };
-    for (const Json& one : document["accepted"])
-        if (one.is_object() && one.contains("step") && one["step"].is_number_integer())
-            keys.push_back(
-                {one["step"].get<std::int64_t>(), words(one, "key"), words(one, "then"), words(one, "now")});
-    return keys;
-}
-
-namespace {
-
-std::string text_at(const Json& object, const char* key) {
-    return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : std::string();
-}
-
-// The count under a key, or -1 where there is none or it is negative.
-std::int64_t count_at(const Json& object, const char* key) {
-    return object.contains(key) && object[key].is_number_unsigned() ? object[key].get<std::int64_t>() : -1;
+bool take(const Json& from, DrawnRun& to) {
+    take(from, "frames", to.frames);
+    take(from, "first_s", to.first);
+    take(from, "last_s", to.last);
+    return take(from, "run", to.folder);
 }
 
 bool lies_in(std::int64_t first, std::int64_t count, std::int64_t all) {
     return first >= 0 && count > 0 && all >= count && first <= all - count;
 }
 
-bool makes_sense(const DrawnPart& part) {
-    return part.number >= 1 && part.number <= part.of &&
-           lies_in(part.first_picture, part.pictures, part.all_pictures) &&
-           lies_in(part.first_frame, part.frames, part.all_frames) && part.frames >= part.pictures &&
-           part.rate > 0 && part.rate <= 1e6 && part.file.find('/') == std::string::npos && part.file != "..";
+// A part makes sense if it lies within the whole film.
+bool take(const Json& from, DrawnPart& to) {
+    constexpr int most_parts = 1'000'000;
+    const bool whole = take(from, "number", to.number) && take(from, "of", to.of) &&
+                       take(from, "first_picture", to.first_picture) && take(from, "pictures", to.pictures) &&
+                       take(from, "all_pictures", to.all_pictures) &&
+                       take(from, "first_frame", to.first_frame) && take(from, "frames", to.frames) &&
+                       take(from, "all_frames", to.all_frames) && take(from, "rate", to.rate);
+    take(from, "file", to.file);
+    take(from, "format", to.format);
+    take(from, "run", to.run);
+    take(from, "settings", to.settings);
+    take(from, "film_xxh64", to.checksum);
+    return whole && to.number >= 1 && to.number <= to.of && to.of <= most_parts &&
+           lies_in(to.first_picture, to.pictures, to.all_pictures) &&
+           lies_in(to.first_frame, to.frames, to.all_frames) && to.frames >= to.pictures && to.rate > 0 &&
+           to.rate <= 1e6 && to.file.find('/') == std::string::npos && to.file != "..";
 }
 
-void read_part(const Json& from, DrawnPart& part) {
-    constexpr std::int64_t most_parts = 1'000'000;
-    const std::int64_t number = count_at(from, "number"), of = count_at(from, "of");
-    if (number > most_parts || of > most_parts) return;
-    part.number = static_cast<int>(number);
-    part.of = static_cast<int>(of);
-    part.first_picture = count_at(from, "first_picture");
-    part.pictures = count_at(from, "pictures");
-    part.all_pictures = count_at(from, "all_pictures");
-    part.first_frame = count_at(from, "first_frame");
-    part.frames = count_at(from, "frames");
-    part.all_frames = count_at(from, "all_frames");
-    part.rate = from.contains("rate") && from["rate"].is_number() ? from["rate"].get<double>() : 0;
-    part.file = text_at(from, "file");
-    part.format = text_at(from, "format");
-    part.run = text_at(from, "run");
-    part.settings = text_at(from, "settings");
-    part.checksum = text_at(from, "film_xxh64");
+template <class Value>
+bool take(const Json& from, std::optional<Value>& to) {
+    Value value{};
+    if (take(from, value)) to = std::move(value);
+    return to.has_value();
+}
+
+template <class Value>
+bool take(const Json& from, std::vector<Value>& to) {
+    if (!from.is_array()) return false;
+    for (const Json& one : from)
+        if (Value value{}; take(one, value)) to.push_back(std::move(value));
+    return true;
+}
+
+template <class Value>
+bool take(const Json& from, std::vector<std::pair<std::string, Value>>& to) {
+    if (!from.is_object()) return false;
+    for (const auto& [name, one] : from.items())
+        if (Value value{}; take(one, value)) to.emplace_back(name, std::move(value));
+    return true;
+}
+
+const Json& member(const Json& object, const char* key) {
+    static const Json none;
+    return object.is_object() && object.contains(key) ? object[key] : none;
+}
+
+template <class Value>
+bool take(const Json& from, const char* key, Value& to) {
+    return take(member(from, key), to);
+}
+
+void take_engine(const Json& from, RunJson& r) {
+    take(from, "seed", r.seed);
+    take(from, "grains", r.grains);
+    take(from, "step_s", r.step);
+    take(from, "steps", r.steps);
+    take(from, "steps_planned", r.steps_planned);
+    take(from, "simulated_s", r.simulated);
+    take(from, "vector", r.vector);
+    take(from, "particle_steps_per_second", r.particle_steps_per_second);
+    std::string digits;
+    std::uint64_t hash = 0;
+    take(from, "state_hash", digits);
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), hash, 16);
+    if (read.ec == std::errc() && read.ptr == digits.data() + digits.size()) r.state_hash = hash;
+}
+
+RunStatus status_of(const std::string& word) {
+    for (const RunStatus status : {RunStatus::complete, RunStatus::interrupted, RunStatus::failed})
+        if (word == to_string(status)) return status;
+    return RunStatus::running;
+}
+
+// The file as JSON. fault: becomes what is wrong with the file, if anything is.
+Json parsed(const std::filesystem::path& path, std::string& fault) {
+    std::error_code error;
+    const std::string name = path.string();
+    std::ifstream file = read_plain(path);
+    if (!file) {
+        fault = name + (std::filesystem::exists(path, error) ? ": cannot be read" : ": is missing");
+        return {};
+    }
+    Json document = Json::parse(file, nullptr, false);
+    if (document.is_discarded())
+        fault = name + ": is damaged, for it is no JSON";
+    else if (!document.is_object() || !document.contains("status"))
+        fault = name + ": is no record of a run";
+    return document;
 }
 
 }  // namespace
 
-std::optional<PartJson> part_in_run_json(const std::filesystem::path& path) {
-    std::ifstream file = read_plain(path);
-    const Json document = Json::parse(file, nullptr, false);
-    if (!document.is_object() || !document.contains("part") || !document["part"].is_object())
-        return std::nullopt;
-    PartJson part;
-    read_part(document["part"], part);
-    if (!makes_sense(part)) return std::nullopt;
-    part.status = text_at(document, "status");
-    part.encoder = text_at(document, "encoder");
-    part.gl = text_at(document, "gl");
-    if (document.contains("program") && document["program"].is_object())
-        part.program = fmt::format("grainreel {} ({})", text_at(document["program"], "version"),
-                                   text_at(document["program"], "commit"));
-    return part;
+ReadRunJson read_run_json(const std::filesystem::path& path) {
+    ReadRunJson read;
+    const Json document = parsed(path, read.fault);
+    RunJson& r = read.record;
+    take(document, "status", read.status);
+    r.status = status_of(read.status);
+    take(document, "exit_status", r.exit_status);
+    take(document, "error", r.error);
+    take(document, "command", r.command);
+    take(document, "scene", r.scene_file);
+    take(document, "started", r.started);
+    take(document, "finished", r.finished);
+    const Json& program = member(document, "program");
+    take(program, "version", r.version);
+    take(program, "commit", r.commit);
+    take(program, "compiler", r.compiler);
+    take(program, "flags", r.build_flags);
+    take(program, "libraries", r.libraries);
+    take(document, "gl", r.gl);
+    take(document, "encoder", r.encoder);
+    const Json& threads = member(document, "threads");
+    take(threads, "engine", r.engine_threads);
+    take(threads, "raster", r.raster_threads);
+    take(threads, "encoder", r.encoder_threads);
+    take_engine(member(document, "engine"), r);
+    take(document, "accepted", r.accepted);
+    take(document, "drawn", r.drawn);
+    take(document, "panels", r.panels);
+    take(document, "wall_s", r.wall_seconds);
+    r.film_frames.reset();
+    const Json& written = member(document, "written");
+    take(written, "film_frames", r.film_frames);
+    take(written, "trajectory_frames", r.trajectory_frames);
+    take(written, "measures_rows", r.measures_rows);
+    take(written, "page", r.page);
+    r.final_table = mark_in_run_json(path);
+    take(document, "peak_memory_bytes", r.peak_memory);
+    take(document, "missing", r.missing);
+    take(document, "warnings", r.warnings);
+    take(document, "part", r.part);
+    return read;
+}
+
+void complete_run_json(const std::filesystem::path& path, const std::string& page) {
+    std::string fault;
+    Json document = parsed(path, fault);
+    if (!fault.empty() || !document["written"].is_object())
+        throw RunError(fmt::format("{}: cannot be read", path.string()));
+    document["status"] = to_string(RunStatus::complete);
+    document["exit_status"] = 0;
+    document["written"]["page"] = text_or_null(page);
+    document["missing"] = Json::array();
+    replace_file(path, text_of(document));
 }
 
 std::string checksum_of_file(const std::filesystem::path& path) {

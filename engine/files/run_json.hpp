@@ -28,17 +28,6 @@ struct DrawnPart {
     std::string run, settings, checksum;
 };
 
-// A part of a film as its run.json describes it.
-struct PartJson : DrawnPart {
-    std::string status;   // a RunStatus as text
-    std::string program;  // "grainreel 0.9 (3f2a...)"
-    std::string encoder, gl;
-};
-
-// Reads the part in a run.json; none when there is no such file or no part in it. The numbers make sense: no
-// count is negative, and the part lies within the whole film.
-std::optional<PartJson> part_in_run_json(const std::filesystem::path& path);
-
 // XXH64 of a file's bytes, as 16 hexadecimal digits. Throws RunError when it cannot be read.
 std::string checksum_of_file(const std::filesystem::path& path);
 
@@ -101,6 +90,10 @@ struct RunJson : ProgramInfo {
 };
 
 inline constexpr const char* kPageIsMissing = "page";
+// Whether the run has come to its end and only its page is missing.
+inline bool lacks_only_page(const RunJson& record) {
+    return record.missing == std::vector<std::string>{kPageIsMissing};
+}
 
 std::string to_string(RunStatus status);
 
@@ -110,18 +103,18 @@ std::string utc_now();
 // Throws RunError when the file cannot be written; the old file stays then.
 void write_run_json(const std::filesystem::path& path, const RunJson& record);
 
-// The scene file that a run.json names, and the status of the run; empty where it does not say.
-std::string scene_in_run_json(const std::filesystem::path& path);
-std::string status_in_run_json(const std::filesystem::path& path);
-// Whether the run has come to its end and only its page is missing.
-bool lacks_only_page(const std::filesystem::path& path);
+// run.json as it was read. Nothing in the file is trusted: what it lacks, or has in another form, stays as in
+// a new RunJson, but that film_frames is none.
+struct ReadRunJson {
+    RunJson record;
+    std::string status;  // the file's own word; empty where it has none
+    std::string fault;   // why nothing is known: "run.json: is missing"; empty for the record of a run
+};
+
+ReadRunJson read_run_json(const std::filesystem::path& path);
+
 // Changes the file to say that the run is complete. page: name of the file of its page, empty without one.
 // Throws RunError.
 void complete_run_json(const std::filesystem::path& path, const std::string& page);
-// The panels that the file names; empty when there are none or there is no such file.
-std::vector<std::string> panels_in_run_json(const std::filesystem::path& path);
-// The changes that were accepted when the run was continued; empty when there were none or there is no such
-// file.
-std::vector<AcceptedKey> accepted_in_run_json(const std::filesystem::path& path);
 
 }  // namespace grainreel

@@ -1,4 +1,4 @@
-// The library's functions for scenes: reads, plans and runs them.
+// The library's functions for scenes: reads and plans them.
 #include "engine/library/internal.hpp"
 
 #include <fmt/format.h>
@@ -9,10 +9,8 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/run/folder/run_scene.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
-#include "grainreel/run.hpp"
 
 namespace grainreel::v1 {
 namespace {
@@ -100,39 +98,6 @@ ContactNumbers Scene::contact(const std::string& first, const std::string& secon
     const PairPlan& pair =
         wall ? impl_->plan.wall[a] : impl_->plan.between(a, place_of_species(impl_->scene, second));
     return {pair.loading_stiffness, pair.restitution, pair.friction, pair.effective_mass, pair.contact_time};
-}
-
-namespace {
-
-// An exception that options.look() throws is kept here, because run_scene() would turn it into a RunError.
-struct Look {
-    const RunOptions& options;
-    std::exception_ptr thrown{};
-
-    bool operator()(const grainreel::Frame& now) {
-        try {
-            return options.look(outside(now));
-        } catch (...) {
-            thrown = std::current_exception();
-            return false;
-        }
-    }
-};
-
-}  // namespace
-
-RunEnd run(const Scene& scene, const RunOptions& options) {
-    check_threads(options.threads);
-    if (!std::isfinite(options.every) || options.every < 0) throw Error("every: must be at least 0 s");
-    Look look{options};
-    RunSceneOptions how;
-    how.folder = options.folder;
-    how.threads = options.threads;
-    how.every = options.every;
-    if (options.look) how.look = [&](const grainreel::Frame& now) { return look(now); };
-    const SceneEnd end = told([&] { return run_scene(scene.impl().scene, how); });
-    if (look.thrown) std::rethrow_exception(look.thrown);
-    return {outside(end.frame), end.complete};
 }
 
 }  // namespace grainreel::v1

@@ -9,7 +9,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/page/embed.hpp"
-#include "render/page/facts/run_facts.hpp"
+#include "render/page/facts/methods.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -51,11 +51,11 @@ std::string plan_html(const PlannedScene& planned) {
                        html_text(planned.contacts));
 }
 
-std::string provenance_html(const RunFacts& facts) {
-    std::string html = list_html(facts.lines);
-    if (facts.warnings.empty()) return html;
+std::string provenance_html(const ReadRunJson& run) {
+    std::string html = list_html(origin_lines(run));
+    if (run.record.warnings.empty()) return html;
     html += "<h3>Warnings of the run</h3>\n<ul>\n";
-    for (const std::string& warning : facts.warnings)
+    for (const std::string& warning : run.record.warnings)
         html += fmt::format("<li>{}</li>\n", html_text(warning));
     return html + "</ul>\n";
 }
@@ -161,21 +161,21 @@ std::string lead_html(const FilmedScene& scene) {
                        html_text(place_words(scene)), drive_words(scene));
 }
 
-std::string end_html(const FilmedScene& scene, const RunFacts& facts, double until) {
-    if (facts.status == "complete") return "";
+std::string end_html(const FilmedScene& scene, const ReadRunJson& run, double until) {
+    if (run.status == "complete") return "";
     const std::string at = fmt::format("{:.4g} of {:.4g} s", std::max(0.0, until), scene.run.duration);
     std::string text;
-    if (facts.status == "failed")
-        text =
-            fmt::format("The run failed at {}: {}.", at, facts.error.empty() ? "see log.txt" : facts.error);
-    else if (facts.status == "interrupted")
+    if (run.status == "failed")
+        text = fmt::format("The run failed at {}: {}.", at,
+                           run.record.error.empty() ? "see log.txt" : run.record.error);
+    else if (run.status == "interrupted")
         text = fmt::format("The run was stopped at {}.", at);
-    else if (facts.status == "running")
+    else if (run.status == "running")
         text = fmt::format("The run goes on; it was at {} when this page was made.", at);
-    else if (facts.status == "broken off")
+    else if (run.status == "broken off")
         text = fmt::format("The run was broken off at {}: it was killed, or its machine went off.", at);
     else
-        text = fmt::format("The run’s status is “{}”; it came to {}.", facts.status, at);
+        text = fmt::format("The run’s status is “{}”; it came to {}.", run.status, at);
     return fmt::format("<p class=\"ended\"><strong>{}</strong> This page has what it kept until then.</p>\n",
                        html_text(text));
 }
@@ -256,17 +256,17 @@ std::string story_html(const FilmedScene& scene) {
     return chapter("What to look at", html + "</ol>\n");
 }
 
-std::string chapters_html(const FilmedScene& scene, const RunFacts& facts,
+std::string chapters_html(const FilmedScene& scene, const ReadRunJson& run,
                           const std::optional<PlannedScene>& planned, const fs::path& folder,
                           const std::string& page_name, const std::string& n) {
     std::string html = story_html(scene);
     if (planned) {
         html += chapter("What was computed", plan_html(*planned));
-        const Methods text = methods(scene, planned->plan, facts, planned->lines);
+        const Methods text = methods(scene, planned->plan, run.record, planned->lines);
         html += chapter("To cite", copyable("methods" + n, "Methods", text.paragraph, "wraps") +
                                        copyable("bibtex" + n, "BibTeX", text.bibtex, "plain"));
     }
-    html += chapter("Where it comes from", provenance_html(facts));
+    html += chapter("Where it comes from", provenance_html(run));
     const bool beside = !page_name.empty();
     html += scene_html(folder, n, beside);
     return beside ? html + chapter("Files of the run", files_html(folder, page_name)) : html;

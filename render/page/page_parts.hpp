@@ -7,7 +7,7 @@
 
 #include "render/page/bed/bed_frames.hpp"
 #include "render/page/bed/page_meshes.hpp"
-#include "render/page/facts/run_facts.hpp"
+#include "render/page/facts/methods.hpp"
 #include "render/page/page_film.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -19,7 +19,7 @@ std::string lead_html(const FilmedScene& scene);
 
 // For a run that was not completed: how it ended. until: the time in s that it reached. Empty for a complete
 // run.
-std::string end_html(const FilmedScene& scene, const RunFacts& facts, double until);
+std::string end_html(const FilmedScene& scene, const ReadRunJson& run, double until);
 
 // The film's element and the words about it. poster: a JPEG, or empty. why_not_tied: why the film does not
 // move together with charts and bed; empty when it does. n: ending of the ids of elements, since a page may
@@ -36,7 +36,7 @@ std::string story_html(const FilmedScene& scene);
 // The chapters: the plan in words, contacts, methods and sources, provenance, scene and files. page_name:
 // name of the page in the run's folder; without it there are no links to the folder's files. n: ending of the
 // ids of elements.
-std::string chapters_html(const FilmedScene& scene, const RunFacts& facts,
+std::string chapters_html(const FilmedScene& scene, const ReadRunJson& run,
                           const std::optional<PlannedScene>& planned, const std::filesystem::path& folder,
                           const std::string& page_name, const std::string& n = "");
 

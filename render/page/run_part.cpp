@@ -81,13 +81,13 @@ RunPart::RunPart(const PageRun& run, std::string name, std::string n, std::size_
 
 void RunPart::read(const PageProgress& progress) {
     const fs::path& folder = run_.folder;
-    record_ = run_facts(folder);
+    run_json_ = record_of_page(folder);
     read_table(folder / "measures.csv");
-    film_ = page_film(scene(), folder, record_.film_frames, progress, most_film_);
+    film_ = page_film(scene(), folder, run_json_.record.film_frames, progress, most_film_);
     poster_ = page_poster(folder);
     times_ = film_times_of();
     fields_ = page_fields(scene(), folder);
-    lead_ = lead_html(scene()) + end_html(scene(), record_, kept_span().to);
+    lead_ = lead_html(scene()) + end_html(scene(), run_json_, kept_span().to);
     if (table_ && table_fault_.empty())
         late_blobs_ = blob("measures-bytes" + n_, packed_table(folder / "measures.csv"));
     whole_table_ = !late_blobs_.empty();
@@ -100,7 +100,8 @@ void RunPart::read_table(const fs::path& file) {
     const std::string name = file.string();
     const std::int64_t rows = read.table ? static_cast<std::int64_t>(read.table->rows()) : 0;
     // A run that failed before its first row has no such file.
-    if (!read.table && !is_there(file) && record_.fault.empty() && record_.measures_rows == 0) return;
+    if (!read.table && !is_there(file) && run_json_.fault.empty() && run_json_.record.measures_rows == 0)
+        return;
     if (!read.table)
         no_charts_ = fmt::format("{}: {}", name, is_there(file) ? "is empty" : "is missing");
     else if (std::find(read.table->columns().begin(), read.table->columns().end(), "time_s") ==
@@ -108,9 +109,9 @@ void RunPart::read_table(const fs::path& file) {
         no_charts_ = fmt::format("{}:1: lacks the column time_s", name);
     else if (!read.fault.empty())
         table_fault_ = read.fault;
-    else if (record_.status == "complete" && rows < record_.measures_rows)
-        table_fault_ =
-            fmt::format("{}: has {} of the {} rows that the run wrote", name, rows, record_.measures_rows);
+    else if (run_json_.status == "complete" && rows < run_json_.record.measures_rows)
+        table_fault_ = fmt::format("{}: has {} of the {} rows that the run wrote", name, rows,
+                                   run_json_.record.measures_rows);
     if (!no_charts_.empty()) return;
     table_ = std::move(read.table);
     measures_ = page_measures(scene(), *table_);
@@ -158,10 +159,11 @@ std::string RunPart::title() const {
 }
 
 FilmTimes RunPart::film_times_of() {
-    if (film_.bytes.empty() || !record_.film_frames) return {};
-    if (auto kept = kept_film_times(run_.folder, *record_.film_frames)) return *kept;
+    if (film_.bytes.empty() || !run_json_.record.film_frames) return {};
+    if (auto kept = kept_film_times(run_.folder, *run_json_.record.film_frames)) return *kept;
     table_of_film_is_odd_ = is_there(run_.folder / kFilmTimes);
-    return film_times(scene(), *record_.film_frames, kept_span().from, record_.status == "complete");
+    return film_times(scene(), *run_json_.record.film_frames, kept_span().from,
+                      run_json_.status == "complete");
 }
 
 Span RunPart::kept_span() const {
@@ -227,7 +229,7 @@ std::string RunPart::charts_about() const {
 }
 
 std::string RunPart::chapters(const fs::path& page, bool on_page_of_its_own) const {
-    return chapters_html(scene(), record_, run_.planned, run_.folder,
+    return chapters_html(scene(), run_json_, run_.planned, run_.folder,
                          on_page_of_its_own ? page.filename().string() : "", n_);
 }
 
@@ -247,7 +249,7 @@ std::string RunPart::late_blobs() const {
 
 // A sentence that says why there is no trajectory.
 std::string RunPart::no_moments() const {
-    if (record_.trajectory_frames > 0)
+    if (run_json_.record.trajectory_frames > 0)
         return "The trajectory.nc that the run wrote is no longer in its folder";
     return "The run kept no moment of its grains";
 }
@@ -259,7 +261,7 @@ std::vector<std::string> RunPart::lacking_files() const {
         if (expected && !is_there(folder() / name))
             lines.push_back(fmt::format("{}: is missing; {}", (folder() / name).string(), lost));
     };
-    const bool moments = run_.run != nullptr, film = record_.film_frames.value_or(0) > 0;
+    const bool moments = run_.run != nullptr, film = run_json_.record.film_frames.value_or(0) > 0;
     check("contacts.nc", moments && scene().output.contacts, "the page has forces of key moments at most");
     check(kFilmMoments, moments && film && scene().output.film_moments.value_or(false),
           "the page has no moments of the film's pictures");
@@ -283,13 +285,13 @@ std::vector<std::string> RunPart::news() const {
         if (const auto lack = run_.run->lack_of(Part::contacts); lack && (lack->some || lack->damaged))
             news.push_back(lack->what + (lack->some ? "; the last moments are drawn without contacts"
                                                     : "; the page has forces of key moments at most"));
-    } else if (record_.trajectory_frames > 0)
+    } else if (run_json_.record.trajectory_frames > 0)
         news.push_back(no_moments() + "; the page has no bed");
     const auto add = [&](const std::string& line) {
         if (!line.empty()) news.push_back(line);
     };
-    if (!record_.fault.empty())
-        add(record_.fault + "; how the run ended and what made it are not on the page");
+    if (!run_json_.fault.empty())
+        add(run_json_.fault + "; how the run ended and what made it are not on the page");
     if (!no_charts_.empty()) add(no_charts_ + "; the page has no charts");
     if (!table_fault_.empty() && news.end() == std::find_if(news.begin(), news.end(), [&](const auto& line) {
                                      return line.starts_with(table_fault_);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "render/page/embed.hpp"
+#include "render/page/facts/methods.hpp"
 #include "render/page/facts/page_facts.hpp"
-#include "render/page/facts/run_facts.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -62,7 +62,7 @@ class RunPart {
     const PageRun& run_;
     const std::string name_, n_;
     const std::size_t most_film_;
-    RunFacts record_;
+    ReadRunJson run_json_;
     std::shared_ptr<const MeasureTable> table_;  // null without measures
     PageMeasures measures_;
     PageFilm film_;

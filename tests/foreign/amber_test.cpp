@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "engine/files/foreign/amber_variables.hpp"
+#include "engine/files/netcdf/hdf5_trial.hpp"
 #include "tests/foreign/small_files.hpp"
 
 namespace grainreel {
@@ -127,7 +127,11 @@ TEST(Amber, UnitsAreTold) {
     EXPECT_EQ(facts("nanometer", "microseconds").time_unit, 1e-6);
     EXPECT_EQ(facts("angstrom", "picosecond").length_unit, 1e-10);
     EXPECT_EQ(facts("lj", "lj").units, "lj");
-    EXPECT_FALSE(facts("furlong", "s").length_unit.has_value());
+    EXPECT_NEAR(facts("Inches", "hour").length_unit.value(), 0.0254, 1e-15);
+    EXPECT_EQ(facts("Inches", "hour").time_unit, 3600);
+    EXPECT_FALSE(facts("sigma", "s").length_unit.has_value());
+    EXPECT_FALSE(facts("s", "m").length_unit.has_value());  // no length, and no time
+    EXPECT_FALSE(facts("s", "m").time_unit.has_value());
 }
 
 // The grains are of millimetres, but the file says angstrom because the convention asks for it.

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <grainreel/error.hpp>
 #include <grainreel/files.hpp>
@@ -113,11 +115,58 @@ TEST(LibraryRun, HasTheBitsOfAStepByStepRunOnAnyNumberOfThreads) {
     }
 }
 
-TEST(LibraryRun, LetsWhatLookThrowsThrough) {
+// Whether run.json in a run's folder says this word of its end.
+bool ended(const std::filesystem::path& folder, const std::string& status) {
+    std::ifstream file(folder / "run.json");
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    return text.find("\"status\": \"" + status + "\"") != std::string::npos;
+}
+
+TEST(LibraryRun, InAFolderAndInMemoryIsTheSame) {
+    const Folder here;
     gr::RunOptions options;
-    options.every = 0.01;
-    options.look = [](const gr::Frame&) -> bool { throw std::out_of_range("mine"); };
-    EXPECT_THROW(gr::run(scene(), options), std::out_of_range);
+    const gr::RunEnd in_memory = gr::run(scene(), options);
+    options.folder = here / "run";
+    const gr::RunEnd in_folder = gr::run(scene(), options);
+    EXPECT_TRUE(in_memory.complete && in_folder.complete);
+    ASSERT_EQ(in_memory.frame.size(), in_folder.frame.size());
+    for (std::size_t i = 0; i < in_memory.frame.size(); ++i)
+        EXPECT_EQ(in_memory.frame.position[i].z, in_folder.frame.position[i].z);
+    EXPECT_TRUE(ended(options.folder, "complete"));
+    EXPECT_TRUE(std::filesystem::exists(options.folder / "trajectory.nc"));
+    EXPECT_THROW(gr::run(scene(), options), gr::Error);  // the folder is not empty
+}
+
+TEST(LibraryRun, StopsWhenLookSaysSo) {
+    const Folder here;
+    for (const std::filesystem::path& folder : {std::filesystem::path(), here / "run"}) {
+        std::vector<double> times;
+        gr::RunOptions options;
+        options.folder = folder;
+        options.every = 0.01;
+        options.look = [&](const gr::Frame& now) {
+            times.push_back(now.time);
+            return now.time < 0.025;
+        };
+        const gr::RunEnd end = gr::run(scene(), options);
+        EXPECT_FALSE(end.complete);
+        ASSERT_EQ(times.size(), 4u);
+        for (std::size_t k = 0; k < times.size(); ++k) EXPECT_NEAR(times[k], 0.01 * k, 1e-4);
+        EXPECT_EQ(end.frame.time, times.back());
+    }
+    EXPECT_TRUE(ended(here / "run", "interrupted"));
+}
+
+TEST(LibraryRun, LetsWhatLookThrowsThrough) {
+    const Folder here;
+    for (const std::filesystem::path& folder : {std::filesystem::path(), here / "run"}) {
+        gr::RunOptions options;
+        options.folder = folder;
+        options.every = 0.01;
+        options.look = [](const gr::Frame&) -> bool { throw std::out_of_range("mine"); };
+        EXPECT_THROW(gr::run(scene(), options), std::out_of_range);
+    }
+    EXPECT_TRUE(ended(here / "run", "interrupted"));
 }
 
 // The force on all grains is what walls and gravity do: contacts between grains cancel.

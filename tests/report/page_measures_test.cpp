@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "render/page/facts/run_facts.hpp"
+#include "render/page/facts/methods.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/temporary_folder.hpp"
@@ -49,24 +49,38 @@ TEST(PageMeasures, WithoutTimeNothingIsCharted) {
     EXPECT_THAT(page_measures(FilmedScene(), table).charted, IsEmpty());
 }
 
-TEST(RunFacts, AreWhatCanBeRead) {
+TEST(RecordOfPage, HasWhatCanBeRead) {
     const test::TemporaryFolder here;
-    EXPECT_EQ(run_facts(here.path()).status, "unknown");
+    EXPECT_EQ(record_of_page(here.path()).status, "unknown");
     for (const char* text :
          {"", "[1, 2", "[[[[", "7", "{\"program\": 5, \"written\": {\"film_frames\": \"many\"}}"}) {
         test::write_text(here / "run.json", text);
-        const RunFacts facts = run_facts(here.path());
-        EXPECT_EQ(facts.status, "unknown") << text;
-        EXPECT_FALSE(facts.film_frames) << text;
+        const ReadRunJson run = record_of_page(here.path());
+        EXPECT_EQ(run.status, "unknown") << text;
+        EXPECT_FALSE(run.record.film_frames) << text;
     }
     test::write_text(here / "run.json",
                      R"({"status": "complete", "program": {"version": "1.2"}, "written": {"film_frames": 12},
                          "warnings": ["w", 3]})");
-    const RunFacts facts = run_facts(here.path());
-    EXPECT_EQ(facts.status, "complete");
-    EXPECT_EQ(facts.version, "1.2");
-    EXPECT_EQ(facts.film_frames, 12);
-    EXPECT_THAT(facts.warnings, ElementsAre("w"));
+    const ReadRunJson run = record_of_page(here.path());
+    EXPECT_EQ(run.status, "complete");
+    EXPECT_EQ(run.record.version, "1.2");
+    EXPECT_EQ(run.record.film_frames, 12);
+    EXPECT_THAT(run.record.warnings, ElementsAre("w"));
+}
+
+// A film that was only drawn has no seed and no step: the file says nothing about the engine.
+TEST(RecordOfPage, LinesNameTheEngineOnlyWhereOneRan) {
+    ReadRunJson run;
+    const auto seed_line = [&] {
+        for (const auto& [name, text] : origin_lines(run))
+            if (name == "seed") return text;
+        return std::string("none");
+    };
+    EXPECT_EQ(seed_line(), "none");
+    run.record.step = 1e-5;
+    run.record.seed = 7;
+    EXPECT_EQ(seed_line(), "7");
 }
 
 }  // namespace

@@ -2,26 +2,28 @@
 // number of a grain becomes a column with the name that it has in the file.
 
 #include <fmt/format.h>
+#include <netcdf.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <map>
 #include <mutex>
 #include <string_view>
 
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
-#include "engine/files/foreign/amber_variables.hpp"
+#include "engine/base/word_reader.hpp"
+#include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/raw_file.hpp"
+#include "engine/files/netcdf/hdf5_trial.hpp"
+#include "engine/files/netcdf/netcdf_file.hpp"
+#include "engine/scene/text/units.hpp"
 
 namespace grainreel {
 
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::string_view hdf5_signature("\x89HDF\r\n\x1a\n");
 constexpr double pi = 3.14159265358979323846;
 
 // The library has one state for all files, so only one thread may use it at a time.
@@ -30,51 +32,54 @@ std::mutex& library() {
     return one;
 }
 
-std::string lower(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
+// The library's fill values by the number of a type; NaN for types that are not numbers.
+double usual_fill(int type) {
+    constexpr std::array<double, 12> fills{nothing,
+                                           NC_FILL_BYTE,
+                                           nothing,
+                                           NC_FILL_SHORT,
+                                           NC_FILL_INT,
+                                           NC_FILL_FLOAT,
+                                           NC_FILL_DOUBLE,
+                                           NC_FILL_UBYTE,
+                                           NC_FILL_USHORT,
+                                           NC_FILL_UINT,
+                                           static_cast<double>(NC_FILL_INT64),
+                                           static_cast<double>(NC_FILL_UINT64)};
+    return type >= 0 && type < static_cast<int>(fills.size()) ? fills[type] : nothing;
 }
 
-// m in a unit of length or s in a unit of time; none where the word is no such unit.
-std::optional<double> unit_of(const std::string& word) {
-    static const std::map<std::string, double> units{{"m", 1},
-                                                     {"meter", 1},
-                                                     {"metre", 1},
-                                                     {"cm", 1e-2},
-                                                     {"centimeter", 1e-2},
-                                                     {"mm", 1e-3},
-                                                     {"millimeter", 1e-3},
-                                                     {"um", 1e-6},
-                                                     {"micrometer", 1e-6},
-                                                     {"micron", 1e-6},
-                                                     {"nm", 1e-9},
-                                                     {"nanometer", 1e-9},
-                                                     {"nanometre", 1e-9},
-                                                     {"angstrom", 1e-10},
-                                                     {"s", 1},
-                                                     {"second", 1},
-                                                     {"ms", 1e-3},
-                                                     {"millisecond", 1e-3},
-                                                     {"us", 1e-6},
-                                                     {"microsecond", 1e-6},
-                                                     {"ns", 1e-9},
-                                                     {"nanosecond", 1e-9},
-                                                     {"ps", 1e-12},
-                                                     {"picosecond", 1e-12},
-                                                     {"fs", 1e-15},
-                                                     {"femtosecond", 1e-15}};
-    std::string one = lower(word);
-    auto found = units.find(one);
-    if (found == units.end() && one.size() > 2 && one.ends_with('s')) {  // "seconds"
-        one.pop_back();
-        found = units.find(one);
+// The size in SI of a unit that measures this; none for other words.
+std::optional<double> unit_in(const std::string& word, Dimension dimension) {
+    try {
+        return word.empty() ? std::nullopt : std::optional(unit_size(word, dimension));
+    } catch (const UserError&) {
+        return std::nullopt;
     }
-    return found == units.end() ? std::nullopt : std::optional(found->second);
+}
+
+// A variable of numbers. per_frame and per_grain tell whether it has the dimensions of frames and of grains;
+// components is the size of its other dimension.
+struct AmberVariable {
+    std::string name, units;
+    int id = -1;
+    bool per_frame = false, per_grain = false;
+    std::size_t components = 1;
+    bool single = true;  // it has no dimension of components, not even one of length 1
+    double scale = 1;    // scale_factor
+    double fill = 0;     // the value where nothing was written
+};
+
+// The program that wrote the file, with its version, as it says.
+std::string program_of(const NetcdfFile& file) {
+    const std::string name = file.text_attribute(NC_GLOBAL, "program");
+    const std::string version = file.text_attribute(NC_GLOBAL, "programVersion");
+    return name.empty() || version.empty() ? name : name + " " + version;
 }
 
 class AmberFile : public RawFile {
   public:
+    // Throws UserError when the file cannot be read or has no places of grains.
     explicit AmberFile(const std::filesystem::path& file);
 
     const RawFacts& facts() const override { return facts_; }
@@ -85,7 +90,14 @@ class AmberFile : public RawFile {
     RawFrame frame_at(std::size_t index) const;
 
   private:
+    void find_dimensions();
+    void find_variables();
+    void add_variable(const std::string& name);
+    const AmberVariable* find(const std::string& name) const;
+    const AmberVariable& places() const { return variables_[places_]; }
     [[noreturn]] void refuse_without_frames() const;
+    // The numbers of the first `grains` grains in a frame, as in the file and not scaled.
+    std::vector<double> numbers(const AmberVariable& variable, std::size_t frame, std::size_t grains) const;
     std::size_t grains_of(std::size_t frame) const;
     std::optional<double> time_of(std::size_t frame) const;
     std::optional<std::array<double, 3>> triple(const char* name, std::size_t frame) const;
@@ -95,27 +107,33 @@ class AmberFile : public RawFile {
     bool too_dense_for_atoms() const;
 
     std::filesystem::path file_;
-    AmberVariables variables_;
+    NetcdfFile netcdf_;
+    std::size_t frames_ = 1;    // number of whole frames in the file
+    std::size_t declared_ = 1;  // number of frames that its header says
+    std::size_t grains_ = 0;    // number of places for grains in a frame
+    std::size_t places_ = 0;    // which variable has them
+    std::vector<AmberVariable> variables_;
     RawFacts facts_;
     std::vector<RawMoment> moments_;
     std::vector<std::string> news_;
 };
 
-AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), variables_(file) {
+AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), netcdf_(NetcdfFile::open_any(file)) {
     facts_.format = "AMBER NetCDF";
-    facts_.program = variables_.attribute("program");
-    if (!facts_.program.empty()) {
-        const std::string version = variables_.attribute("programVersion");
-        if (!version.empty()) facts_.program += " " + version;
-    }
-    if (variables_.places().components == 2) facts_.dimensions = 2;
-    if (variables_.frames() == 0) refuse_without_frames();
-    if (variables_.frames() < variables_.declared())
+    facts_.program = program_of(netcdf_);
+    if (!netcdf_.has_variable("coordinates") && !netcdf_.has_variable("unwrapped_coordinates"))
+        netcdf_.enter("AMBER");
+    if (const std::string program = program_of(netcdf_); !program.empty()) facts_.program = program;
+    find_dimensions();
+    find_variables();
+    if (places().components == 2) facts_.dimensions = 2;
+    if (frames_ == 0) refuse_without_frames();
+    if (frames_ < declared_)
         news_.push_back(
             fmt::format("{}: is cut off after {} of {} frames; the last frame that is not whole is left "
                         "out",
-                        file.string(), variables_.frames(), variables_.declared()));
-    for (std::size_t frame = 0; frame < variables_.frames(); ++frame) {
+                        file.string(), frames_, declared_));
+    for (std::size_t frame = 0; frame < frames_; ++frame) {
         RawMoment moment;
         moment.grains = static_cast<std::int64_t>(grains_of(frame));
         moment.time = time_of(frame);
@@ -124,51 +142,132 @@ AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), variables
     find_units();
 }
 
+void AmberFile::find_dimensions() {
+    constexpr std::uint64_t most_packing = 1100;  // the most bytes that zlib makes of one
+    if (!netcdf_.has_dimension("atom"))
+        throw UserError(fmt::format("{}: is NetCDF, but has no dimension atom, as the AMBER convention says",
+                                    file_.string()));
+    grains_ = netcdf_.length("atom");
+    if (netcdf_.has_dimension("frame")) {
+        declared_ = netcdf_.length("frame");
+        frames_ = netcdf_.has_records() ? std::min(declared_, netcdf_.whole_records()) : declared_;
+    }
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file_, error);
+    if (error || grains_ > size * most_packing || frames_ > size * most_packing)
+        throw UserError(
+            fmt::format("{}: says that it has {} frames of {} grains, which its {} bytes cannot hold",
+                        file_.string(), frames_, grains_, error ? 0 : size));
+}
+
+void AmberFile::find_variables() {
+    for (const std::string& name : netcdf_.variables()) add_variable(name);
+    const AmberVariable* places = find("coordinates");
+    if (!places) places = find("unwrapped_coordinates");
+    if (!places || !places->per_grain || places->components > 3 || places->components < 2)
+        throw UserError(
+            fmt::format("{}: is NetCDF, but has no variable coordinates of frame, atom and spatial, "
+                        "as the AMBER convention says",
+                        file_.string()));
+    places_ = static_cast<std::size_t>(places - variables_.data());
+    if (!places->per_frame) frames_ = declared_ = 1;
+}
+
+void AmberFile::add_variable(const std::string& name) {
+    constexpr std::size_t most_components = 64;
+    const int id = netcdf_.find_variable(name);
+    const double fill = usual_fill(netcdf_.type_of(id));
+    if (std::isnan(fill)) return;
+    AmberVariable variable{.name = name, .units = netcdf_.text_attribute(id, "units"), .id = id};
+    const std::vector<std::string> dimensions = netcdf_.dimensions_of(id);
+    auto dimension = dimensions.begin();
+    const auto next_is = [&](const char* what) {
+        if (dimension == dimensions.end() || *dimension != what) return false;
+        ++dimension;
+        return true;
+    };
+    variable.per_frame = next_is("frame");
+    variable.per_grain = next_is("atom");
+    if (dimension != dimensions.end()) {
+        variable.components = netcdf_.length(*dimension++);
+        variable.single = false;
+    }
+    if (dimension != dimensions.end() || variable.components == 0 || variable.components > most_components)
+        return;
+    variable.scale = netcdf_.number_attribute(id, "scale_factor").value_or(1.0);
+    variable.fill = netcdf_.number_attribute(id, "_FillValue").value_or(fill);
+    variables_.push_back(variable);
+}
+
+const AmberVariable* AmberFile::find(const std::string& name) const {
+    for (const AmberVariable& variable : variables_)
+        if (variable.name == name) return &variable;
+    return nullptr;
+}
+
+std::vector<double> AmberFile::numbers(const AmberVariable& variable, std::size_t frame,
+                                       std::size_t grains) const {
+    std::vector<std::size_t> start, count;
+    start.reserve(3);  // a single number needs no place, but the library wants no null pointer
+    count.reserve(3);
+    std::size_t size = 1;
+    const auto add = [&](std::size_t from, std::size_t length) {
+        start.push_back(from);
+        count.push_back(length);
+        size *= length;
+    };
+    if (variable.per_frame) add(frame, 1);
+    if (variable.per_grain) add(0, grains);
+    if (!variable.single) add(0, variable.components);
+    std::vector<double> values(size);
+    if (size > 0) netcdf_.get(variable.id, start, count, values.data());
+    return values;
+}
+
 // Programs count a frame in the header only when it is whole, and a program that was stopped may not have
 // counted any.
 void AmberFile::refuse_without_frames() const {
     const std::string name = file_.string();
-    if (variables_.declared() > 0)
+    if (declared_ > 0)
         throw UserError(fmt::format("{}: has no frame that is whole; was it copied to the end?", name));
-    const std::optional<std::size_t> behind = variables_.records_behind_header();
-    if (behind.value_or(0) == 0) throw UserError(fmt::format("{}: has no frame", name));
+    const std::size_t behind = netcdf_.whole_records();
+    if (behind == 0) throw UserError(fmt::format("{}: has no frame", name));
     std::string count;
-    for (int k = variables_.count_bytes() - 1; k >= 0; --k)
-        count += fmt::format("\\{:03o}", *behind >> 8 * k & 0xffU);
-    throw UserError(
-        fmt::format("{}: its header counts no frame, and behind it there is room for {}; if the program that "
-                    "wrote it was "
-                    "stopped, put this count there: printf '{}' | dd of={} bs=1 seek=4 conv=notrunc",
-                    name, *behind, count, name));
+    for (int k = netcdf_.header().count_bytes - 1; k >= 0; --k)
+        count += fmt::format("\\{:03o}", behind >> 8 * k & 0xffU);
+    throw UserError(fmt::format(
+        "{}: its header counts no frame, and behind it there is room for {}; if the program that "
+        "wrote it was stopped, put this count there: printf '{}' | dd of={} bs=1 seek=4 conv=notrunc",
+        name, behind, count, name));
 }
 
 // Number of grains in a frame. The places after them have the fill value.
 std::size_t AmberFile::grains_of(std::size_t frame) const {
-    const AmberVariable& places = variables_.places();
-    const std::size_t most = variables_.grains(), width = places.components;
-    if (most == 0) return 0;
-    const std::vector<double> values = variables_.read(places, frame, most);
-    std::size_t grains = most;
-    while (grains > 0 && values[(grains - 1) * width] == places.fill) --grains;
+    const std::size_t width = places().components;
+    const double fill = places().fill;
+    if (grains_ == 0) return 0;
+    const std::vector<double> values = numbers(places(), frame, grains_);
+    std::size_t grains = grains_;
+    while (grains > 0 && values[(grains - 1) * width] == fill) --grains;
     for (std::size_t i = 0; i < grains * width; ++i)
-        if (values[i] == places.fill || !std::isfinite(values[i]))
+        if (values[i] == fill || !std::isfinite(values[i]))
             throw UserError(
                 fmt::format("{}: frame {}: grain {} has no place", file_.string(), frame, i / width));
     return grains;
 }
 
 std::optional<double> AmberFile::time_of(std::size_t frame) const {
-    const AmberVariable* time = variables_.find("time");
+    const AmberVariable* time = find("time");
     if (!time || time->per_grain || !time->single) return std::nullopt;
-    const double value = variables_.read(*time, frame, 0).front();
+    const double value = numbers(*time, frame, 0).front();
     if (value == time->fill || !std::isfinite(value)) return std::nullopt;
     return value * time->scale;
 }
 
 std::optional<std::array<double, 3>> AmberFile::triple(const char* name, std::size_t frame) const {
-    const AmberVariable* variable = variables_.find(name);
+    const AmberVariable* variable = find(name);
     if (!variable || variable->per_grain || variable->components > 3 || variable->single) return std::nullopt;
-    const std::vector<double> values = variables_.read(*variable, frame, 0);
+    const std::vector<double> values = numbers(*variable, frame, 0);
     std::array<double, 3> triple{};
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i] == variable->fill || !std::isfinite(values[i])) return std::nullopt;
@@ -200,17 +299,17 @@ std::optional<WorldCell> AmberFile::box_of(std::size_t frame) const {
 }
 
 void AmberFile::add_columns(RawTable& grains, const AmberVariable& variable, std::size_t frame) const {
-    const bool places = variable.name == variables_.places().name;
-    const std::vector<double> values = variables_.read(variable, frame, grains.rows);
+    const bool is_place = variable.name == places().name;
+    const std::vector<double> values = numbers(variable, frame, grains.rows);
     for (std::size_t k = 0; k < variable.components; ++k) {
         std::string name = variable.name;
-        if (places) name = std::string(1, "xyz"[k]);
-        if (!places && !variable.single) name = fmt::format("{}:{}", variable.name, k);
+        if (is_place) name = std::string(1, "xyz"[k]);
+        if (!is_place && !variable.single) name = fmt::format("{}:{}", variable.name, k);
         RawColumn column{name, {}, {}};
         column.values.reserve(grains.rows);
         for (std::size_t i = 0; i < grains.rows; ++i) {
             const double value = values[i * variable.components + k];
-            column.values.push_back(value == variable.fill && !places ? nothing : value * variable.scale);
+            column.values.push_back(value == variable.fill && !is_place ? nothing : value * variable.scale);
         }
         grains.columns.push_back(std::move(column));
     }
@@ -237,12 +336,12 @@ bool AmberFile::too_dense_for_atoms() const {
 }
 
 void AmberFile::find_units() {
-    const AmberVariable* time = variables_.find("time");
-    const std::string length = variables_.places().units, second = time ? time->units : std::string();
-    if (lower(length) == "lj") facts_.units = "lj";
-    facts_.length_unit = unit_of(length);
-    facts_.time_unit = unit_of(second);
-    if (lower(length) != "angstrom" || !too_dense_for_atoms()) return;
+    const AmberVariable* time = find("time");
+    const std::string length = places().units, second = time ? time->units : std::string();
+    if (same_word(length, "lj")) facts_.units = "lj";
+    facts_.length_unit = unit_in(length, Dimension::length);
+    facts_.time_unit = unit_in(second, Dimension::time);
+    if (!same_word(length, "angstrom") || !too_dense_for_atoms()) return;
     facts_.length_unit = facts_.time_unit = std::nullopt;
     news_.push_back(
         fmt::format("{}: says angstrom, as the AMBER convention asks for, but its grains lie too close "
@@ -260,7 +359,7 @@ RawFrame AmberFile::frame_at(std::size_t index) const {
     frame.time = moments_.at(index).time;
     frame.box = box_of(index);
     frame.grains.rows = static_cast<std::size_t>(moments_[index].grains);
-    for (const AmberVariable& variable : variables_.variables())
+    for (const AmberVariable& variable : variables_)
         if (variable.per_grain) add_columns(frame.grains, variable, index);
     return frame;
 }
@@ -268,13 +367,7 @@ RawFrame AmberFile::frame_at(std::size_t index) const {
 bool takes_amber(const FileHead& head) {
     const std::string_view bytes = head.bytes;
     return bytes.starts_with("CDF\x01") || bytes.starts_with("CDF\x02") || bytes.starts_with("CDF\x05") ||
-           bytes.starts_with(hdf5_signature);
-}
-
-bool is_hdf5(const std::filesystem::path& file) {
-    std::string head(hdf5_signature.size(), '\0');
-    std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
-    return head == hdf5_signature;
+           bytes.starts_with(kHdf5Signature);
 }
 
 // Opens a file of HDF5 and reads all of it in a child process, where a crash does no harm.
@@ -293,6 +386,9 @@ void try_hdf5(const std::filesystem::path& file) {
 }
 
 std::unique_ptr<RawFile> open_amber(const std::filesystem::path& file) {
+    if (packing_of(file) != Packing::none)
+        throw UserError(
+            fmt::format("{}: a NetCDF file is not read while it is packed; unpack it", file.string()));
     const std::lock_guard lock(library());
     if (is_hdf5(file)) try_hdf5(file);
     return std::make_unique<AmberFile>(file);

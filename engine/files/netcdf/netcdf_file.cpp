@@ -14,6 +14,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/files/netcdf/hdf5_trial.hpp"
 
 namespace grainreel {
 
@@ -99,17 +100,29 @@ NetcdfFile NetcdfFile::append(const std::filesystem::path& path, std::size_t rec
 NetcdfFile NetcdfFile::open(const std::filesystem::path& path) {
     const NetcdfHeader header = read_netcdf_header(path);
     int id = -1;
-    if (const int status = nc_open(path.c_str(), NC_NOWRITE, &id); status != NC_NOERR) {
-        throw UserError(fmt::format("{}: cannot be read: {}", path.string(), nc_strerror(status)));
-    }
+    known(nc_open(path.c_str(), NC_NOWRITE, &id), path);
     NetcdfFile file(path, id, false);
     file.header_ = header;
     return file;
 }
 
+NetcdfFile NetcdfFile::open_any(const std::filesystem::path& path) {
+    if (!is_hdf5(path)) return open(path);
+    check_hdf5(path);
+    int id = -1;
+    known(nc_open(path.c_str(), NC_NOWRITE, &id), path);
+    return NetcdfFile(path, id, false);
+}
+
+void NetcdfFile::enter(const std::string& group) {
+    int id = -1;
+    if (nc_inq_grp_ncid(file_id_, group.c_str(), &id) == NC_NOERR) id_ = id;
+}
+
 NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
     : path_(std::move(other.path_)),
-      id_(std::exchange(other.id_, -1)),
+      file_id_(std::exchange(other.file_id_, -1)),
+      id_(other.id_),
       writing_(other.writing_),
       failed_(other.failed_),
       records_(other.records_),
@@ -120,8 +133,8 @@ NetcdfFile::~NetcdfFile() {
 }
 
 void NetcdfFile::close() noexcept {
-    if (id_ < 0) return;
-    const bool broken = nc_close(id_) != NC_NOERR || failed_;
+    if (file_id_ < 0) return;
+    const bool broken = nc_close(file_id_) != NC_NOERR || failed_;
     if (writing_ && broken) set_record_count(path_, records_);
 }
 
@@ -193,6 +206,17 @@ std::vector<std::string> NetcdfFile::dimensions_of(int variable) const {
     return names;
 }
 
+int NetcdfFile::type_of(int variable) const {
+    nc_type type = NC_NAT;
+    known(nc_inq_vartype(id_, variable, &type), path_);
+    return type;
+}
+
+bool NetcdfFile::has_dimension(const std::string& name) const {
+    int id = -1;
+    return nc_inq_dimid(id_, name.c_str(), &id) == NC_NOERR;
+}
+
 std::size_t NetcdfFile::length(const std::string& dimension) const {
     int id = -1;
     std::size_t length = 0;
@@ -205,10 +229,23 @@ std::size_t NetcdfFile::length(const std::string& dimension) const {
 
 std::string NetcdfFile::text_attribute(int variable, const std::string& name) const {
     std::size_t length = 0;
-    if (nc_inq_attlen(id_, variable, name.c_str(), &length) != NC_NOERR) return {};
+    nc_type type = NC_NAT;
+    if (nc_inq_att(id_, variable, name.c_str(), &type, &length) != NC_NOERR || type != NC_CHAR) return {};
+    std::error_code error;
+    if (length > std::filesystem::file_size(path_, error) || error) return {};  // the file is damaged
     std::string text(length, '\0');
     if (nc_get_att_text(id_, variable, name.c_str(), text.data()) != NC_NOERR) return {};
-    return text;
+    return text.substr(0, text.find('\0'));  // some programs write the end of their C strings too
+}
+
+std::optional<double> NetcdfFile::number_attribute(int variable, const std::string& name) const {
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    double value = 0;
+    if (nc_inq_att(id_, variable, name.c_str(), &type, &length) != NC_NOERR) return std::nullopt;
+    if (type == NC_CHAR || length != 1) return std::nullopt;
+    if (nc_get_att_double(id_, variable, name.c_str(), &value) != NC_NOERR) return std::nullopt;
+    return value;
 }
 
 std::size_t NetcdfFile::records_on_disk(std::size_t counted) const {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace grainreel {
 struct NetcdfHeader {
     std::uint64_t begin = 0;   // bytes before the first record, or of the whole file without records
     std::uint64_t record = 0;  // bytes of a record, or 0 where no variable has records
+    int count_bytes = 4;       // of the count of records, which stands at byte 4
 };
 
 // Checks every count, name, type and offset against the format and the file's size. Throws UserError when the
@@ -47,6 +49,11 @@ class NetcdfFile {
     // Opens a file for reading. Throws UserError when it is missing, is no classic NetCDF file or has a
     // damaged header.
     static NetcdfFile open(const std::filesystem::path& path);
+    // Opens a file of another program: as open() does, or one of NetCDF-4, which is HDF5. The library trusts
+    // an HDF5 file; so the caller tries all that is to be read first (hdf5_trial.hpp).
+    static NetcdfFile open_any(const std::filesystem::path& path);
+    // Reads the variables of this group from now on, where the file has it. Classic files have no groups.
+    void enter(const std::string& group);
 
     ~NetcdfFile();
     NetcdfFile(NetcdfFile&& other) noexcept;
@@ -64,13 +71,20 @@ class NetcdfFile {
     bool has_variable(const std::string& name) const;
     std::vector<std::string> variables() const;                  // names in the order of the file
     std::vector<std::string> dimensions_of(int variable) const;  // names; the last runs fastest
-    std::size_t length(const std::string& dimension) const;      // throws UserError when there is none
+    int type_of(int variable) const;                             // NC_FLOAT and so on
+    bool has_dimension(const std::string& name) const;
+    std::size_t length(const std::string& dimension) const;  // throws UserError when there is none
     std::string text_attribute(int variable, const std::string& name) const;  // empty when there is none
-    // Whether a file that is read has variables with records.
+    // An attribute that is one number; none where it is another thing.
+    std::optional<double> number_attribute(int variable, const std::string& name) const;
+    // Whether a file that is read has variables with records. An HDF5 file has none.
     bool has_records() const { return header_.record > 0; }
-    // Number of whole records in a file that is read, whatever its header counts. There are fewer when the
-    // file was cut off and more when the count is damaged. The library counts a record shortly before it
-    // writes it; so this waits a little where there are fewer than `counted` and the file was just written.
+    const NetcdfHeader& header() const { return header_; }
+    // Number of whole records in a file that is read, whatever its header counts.
+    std::size_t whole_records() const;
+    // The same for a file that may still be written. There are fewer than `counted` when the file was cut off
+    // and more when the count is damaged. The library counts a record shortly before it writes it; so this
+    // waits a little where there are fewer and the file was just written.
     std::size_t records_on_disk(std::size_t counted) const;
 
     void put(int variable, const std::vector<std::size_t>& start, const std::vector<std::size_t>& count,
@@ -94,8 +108,7 @@ class NetcdfFile {
 
   private:
     NetcdfFile(const std::filesystem::path& path, int id, bool writing)
-        : path_(path), id_(id), writing_(writing) {}
-    std::size_t whole_records() const;
+        : path_(path), file_id_(id), id_(id), writing_(writing) {}
     // Notes a failed write and throws RunError.
     void wrote(int status);
     template <class Function, class Value>
@@ -104,7 +117,8 @@ class NetcdfFile {
     void close() noexcept;
 
     std::filesystem::path path_;
-    int id_ = -1;
+    int file_id_ = -1;
+    int id_ = -1;  // of the group that is read; of the file itself in classic files
     bool writing_ = false;
     bool failed_ = false;
     std::size_t records_ = 0;  // number of whole records

@@ -173,7 +173,7 @@ class Parser {
     }
 
     NetcdfHeader header() const {
-        NetcdfHeader header{size_, 0};
+        NetcdfHeader header{size_, 0, static_cast<int>(count_width_)};
         int with_records = 0;
         Count unpadded = 0;
         for (const Variable& variable : variables_) {

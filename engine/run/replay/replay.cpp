@@ -173,7 +173,7 @@ std::vector<KeptCheckpoint> own_checkpoints(const fs::path& run, const Scene& sc
         pass_over(last, kDamaged);
     if (all.empty()) return own;
     const std::string today = scene_to_keep(scene, plan_of_run(scene, run));
-    const std::vector<AcceptedKey> accepted = accepted_in_run_json(run / "run.json");
+    const std::vector<AcceptedKey> accepted = read_run_json(run / "run.json").record.accepted;
     for (KeptCheckpoint& one : all) {
         const std::string why = why_not(one, today, accepted);
         why.empty() ? own.push_back(std::move(one)) : pass_over(one.file, why);

@@ -101,7 +101,7 @@ class Resume final : public Verb {
         const int threads = plan_threads(processors, film_.film, scene.grains()).engine;
         ResumePoint point = find_resume_point(scene, plan, folder, threads,
                                               film_.film ? reach_of_film(scene, plan) : FramesReach());
-        point.accepted = accepted_in_run_json(folder / "run.json");
+        point.accepted = read_run_json(folder / "run.json").record.accepted;
         if (!changes.empty()) take_up(changes, folder, scene, plan, point, threads);
         reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
                                   plan.clock.time(point.simulation.step()), scene.run.duration));
@@ -162,8 +162,8 @@ class Resume final : public Verb {
     // the files tell.
     bool is_only_page_missing(const fs::path& folder) const {
         if (until_ || more_ || !accept_.empty()) return false;
-        const fs::path record = folder / "run.json";
-        const bool complete = status_in_run_json(record) == to_string(RunStatus::complete);
+        const RunJson record = read_run_json(folder / "run.json").record;
+        const bool complete = record.status == RunStatus::complete;
         return lacks_only_page(record) ||
                (complete && !no_page_ && is_there(folder / kKeyMoments) && !is_there(folder / kPageName));
     }
@@ -249,7 +249,7 @@ class Resume final : public Verb {
         const double end = until_ ? *until_ : more_ ? reached + *more_ : before.run.duration;
         // A run that was killed while its film was being finished is not complete, though no step is left: it
         // may go on with the end that it has reached.
-        const bool complete = status_in_run_json(folder / "run.json") == to_string(RunStatus::complete);
+        const bool complete = read_run_json(folder / "run.json").record.status == RunStatus::complete;
         if (end < reached + (complete ? 0.5 : -0.5) * plan.clock.step)
             throw UserError(
                 fmt::format("{}: the run has come to {:.6g} s already; give a later end, as in --for 5s",
@@ -262,7 +262,7 @@ class Resume final : public Verb {
     // Gives the scene its former name, since run.json and the pictures name the scene from which the run was
     // made.
     static void name_as_before(FilmedScene& scene, const fs::path& folder) {
-        const std::string file = scene_in_run_json(folder / "run.json");
+        const std::string file = read_run_json(folder / "run.json").record.scene_file;
         if (file.empty()) return;
         scene.file = file;
         scene.name = fs::path(file).stem().string();

@@ -175,7 +175,10 @@ namespace fs = std::filesystem;
 
 struct Part {
     fs::path folder;
-    PartJson record;
+    RunJson run;
+    DrawnPart record;
+    // The program that drew it: "grainreel 0.9 (3f2a...)".
+    std::string program() const { return fmt::format("grainreel {} ({})", run.version, run.commit); }
     std::string name() const { return folder.string(); }
 };
 
@@ -184,21 +187,21 @@ Part read_part(const fs::path& folder) {
     if (!fs::is_directory(folder, error))
         throw UserError(
             fmt::format("{}: is no folder; give the folders that render --part has made", folder.string()));
-    const std::optional<PartJson> record = part_in_run_json(folder / "run.json");
-    if (!record)
+    const ReadRunJson read = read_run_json(folder / "run.json");
+    if (!read.record.part)
         throw UserError(fmt::format(
             "{}: has no run.json of a part of a film; give the folders that render --part has made",
             folder.string()));
-    if (record->status != "complete")
+    if (read.status != "complete")
         throw UserError(
             fmt::format("{}: is not complete (its run.json says {}); wait for it, or draw it again",
-                        folder.string(), excerpt(record->status)));
-    if (record->file.empty())
+                        folder.string(), excerpt(read.status)));
+    if (read.record.part->file.empty())
         throw UserError(fmt::format(
             "{}: has no film; its pictures in frames/ have the numbers that they have in one go, and need no "
             "joining",
             folder.string()));
-    return {folder, *record};
+    return {folder, read.record, *read.record.part};
 }
 
 // Sorts the parts by number. Throws when they are not all the parts of one film, each once.
@@ -234,15 +237,17 @@ std::vector<Part> in_order(std::vector<Part> parts) {
 }
 
 void check_alike(const Part& part, const Part& first) {
-    const PartJson &a = part.record, &b = first.record;
+    const DrawnPart &a = part.record, &b = first.record;
     const auto differs = [&](const std::string& how) {
         throw UserError(fmt::format("{}: {} {}; draw one of the two again", part.name(), how, first.name()));
     };
     if (a.run != b.run) differs("is of another run, or of another stretch of it, than");
     if (a.format != b.format || a.rate != b.rate || a.settings != b.settings)
         differs("was drawn with other settings (their run.json have the commands) than");
-    if (a.encoder != b.encoder) differs(fmt::format("was encoded otherwise ({}) than", excerpt(a.encoder)));
-    if (a.program != b.program) differs(fmt::format("was drawn by {}, unlike", excerpt(a.program)));
+    if (part.run.encoder != first.run.encoder)
+        differs(fmt::format("was encoded otherwise ({}) than", excerpt(part.run.encoder)));
+    if (part.program() != first.program())
+        differs(fmt::format("was drawn by {}, unlike", excerpt(part.program())));
     if (a.all_frames != b.all_frames) differs("is of a film with another number of pictures than");
 }
 
@@ -262,10 +267,10 @@ void check_together(const std::vector<Part>& parts, RunListener& listener) {
                         "it again",
                         parts.back().name()));
     for (const Part& part : parts)
-        if (part.record.gl != parts.front().record.gl) {
+        if (part.run.gl != parts.front().run.gl) {
             listener.warning(fmt::format("{} was drawn with {}, and {} with {}: shades may differ",
-                                         part.name(), excerpt(part.record.gl), parts.front().name(),
-                                         excerpt(parts.front().record.gl)));
+                                         part.name(), excerpt(part.run.gl), parts.front().name(),
+                                         excerpt(parts.front().run.gl)));
             break;
         }
 }

@@ -87,7 +87,7 @@ void LiveRun::refresh() {
     std::error_code ignored;
     gone_ = !fs::is_directory(folder_, ignored);
     if (!gone_) {
-        status_ = status_in_run_json(folder_ / "run.json");
+        status_ = read_run_json(folder_ / "run.json").status;
         over_ = !FolderLock::holder(folder_).has_value();
         if (over_ && (status_.empty() || status_ == "running")) status_ = "broken off";
         read_scene_again();
@@ -239,7 +239,7 @@ void LiveRun::make_state() {
 
 std::string live_page(const FilmedScene& scene, const std::filesystem::path& folder,
                       const std::optional<PlannedScene>& planned) {
-    const RunFacts record = run_facts(folder);
+    const ReadRunJson record = record_of_page(folder);
     const PageFiles& files = page_files();
     const std::string picture =
         "<img id=\"live-picture\" class=\"poster\" alt=\"The film's newest picture: grains in their "

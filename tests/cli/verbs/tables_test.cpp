@@ -223,6 +223,124 @@ TEST(RunJson, HoldsTheRecord) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(here.path()), {}), 1);  // nothing left over
 }
 
+// Every member has a value of its own, so that a reader that takes the wrong one is found.
+RunJson full_record() {
+    RunJson r;
+    r.version = "9.8";
+    r.commit = "3f2a";
+    r.compiler = "g++";
+    r.build_flags = "-O2";
+    r.libraries = {{"NetCDF", "4.9.0"}, {"fmt", "9"}};
+    r.status = RunStatus::failed;
+    r.exit_status = 3;
+    r.error = "the disk is full";
+    r.part.emplace();
+    r.part->number = 2;
+    r.part->of = 3;
+    r.part->first_picture = 4;
+    r.part->pictures = 5;
+    r.part->all_pictures = 11;
+    r.part->first_frame = 6;
+    r.part->frames = 7;
+    r.part->all_frames = 13;
+    r.part->rate = 25;
+    r.part->file = "film.mp4";
+    r.part->format = "mp4";
+    r.part->run = "00000000000000aa";
+    r.part->settings = "00000000000000bb";
+    r.part->checksum = "00000000000000cc";
+    r.command = "grainreel movie a.toml";
+    r.scene_file = "a.toml";
+    r.gl = "llvmpipe";
+    r.encoder = "libx264";
+    r.vector = "AVX2";
+    r.seed = std::numeric_limits<std::uint64_t>::max();
+    r.engine_threads = 4;
+    r.raster_threads = 8;
+    r.encoder_threads = 16;
+    r.started = "2031-05-04T12:30:00Z";
+    r.finished = "2031-05-04T12:40:00Z";
+    r.grains = 100;
+    r.steps = 200;
+    r.steps_planned = 300;
+    r.step = 1e-6;
+    r.simulated = 2e-4;
+    r.state_hash = 0xfedcba9876543210ull;
+    r.wall_seconds = {{"engine", 1.5}, {"film", 2.5}};
+    r.particle_steps_per_second = 1e7;
+    r.film_frames = 25;
+    r.trajectory_frames = 26;
+    r.measures_rows = 27;
+    r.final_table = TableMark{100, 0x123456789abcdefull};
+    r.accepted = {{.step = 50, .key = "contact.friction", .then = "0.3", .now = "0.4"}};
+    r.page = "report.html";
+    r.peak_memory = 1 << 20;
+    r.warnings = {"one", "two"};
+    r.missing = {kPageIsMissing};
+    return r;
+}
+
+TEST(RunJson, IsReadAsItWasWritten) {
+    const TemporaryFolder here;
+    RunJson compared = full_record();  // a film of several runs: nothing about an engine
+    compared.drawn = {{.folder = "../a", .frames = 9, .first = 0.25, .last = 0.5}};
+    compared.panels = {"left", "right"};
+    for (const RunJson& record : {full_record(), compared, RunJson()}) {
+        write_run_json(here / "run.json", record);
+        const ReadRunJson read = read_run_json(here / "run.json");
+        EXPECT_EQ(read.fault, "");
+        EXPECT_EQ(read.status, to_string(record.status));
+        write_run_json(here / "again.json", read.record);
+        EXPECT_EQ(text_of(here / "again.json"), text_of(here / "run.json"));
+    }
+}
+
+TEST(RunJson, WhatHasAnotherFormIsLeftOut) {
+    const TemporaryFolder here;
+    const auto read = [&](const std::string& text) {
+        write_text(here / "run.json", text);
+        return read_run_json(here / "run.json");
+    };
+    EXPECT_THAT(read_run_json(here / "none.json").fault, testing::EndsWith("none.json: is missing"));
+    EXPECT_THAT(read("{\"status\": \"run").fault, testing::HasSubstr("no JSON"));
+    EXPECT_THAT(read("[]").fault, testing::HasSubstr("no record of a run"));
+    EXPECT_THAT(read(R"({"scene": "a.toml"})").fault, testing::HasSubstr("no record of a run"));
+    const RunJson odd = read(R"({"status": 7, "warnings": {"a": 1}, "threads": [1],
+        "engine": {"seed": -1, "grains": 2.5, "steps": 1e300, "state_hash": "0x12"},
+        "accepted": [{"key": "k"}, 3, {"step": 4, "key": "l"}], "exit_status": 99999999999,
+        "part": {"number": 2, "of": 1}})")
+                            .record;
+    EXPECT_EQ(odd.status, RunStatus::running);
+    EXPECT_TRUE(odd.warnings.empty());
+    EXPECT_EQ(odd.seed, 0u);
+    EXPECT_EQ(odd.grains, 0);
+    EXPECT_EQ(odd.steps, 0);
+    EXPECT_FALSE(odd.state_hash);
+    EXPECT_FALSE(odd.exit_status);
+    EXPECT_FALSE(odd.part);
+    ASSERT_EQ(odd.accepted.size(), 1u);
+    EXPECT_EQ(odd.accepted[0].key, "l");
+}
+
+// A part of a film is believed only where it lies within the film.
+TEST(RunJson, APartMustLieWithinItsFilm) {
+    const TemporaryFolder here;
+    const auto is_taken = [&](const auto& change) {
+        RunJson record = full_record();
+        change(*record.part);
+        write_run_json(here / "run.json", record);
+        return read_run_json(here / "run.json").record.part.has_value();
+    };
+    EXPECT_TRUE(is_taken([](DrawnPart&) {}));
+    EXPECT_FALSE(is_taken([](DrawnPart& part) { part.number = 4; }));
+    EXPECT_FALSE(is_taken([](DrawnPart& part) { part.first_picture = -1; }));
+    EXPECT_FALSE(is_taken([](DrawnPart& part) { part.first_picture = 7; }));
+    EXPECT_FALSE(is_taken([](DrawnPart& part) { part.all_frames = 12; }));
+    EXPECT_FALSE(is_taken([](DrawnPart& part) { part.frames = 4; }));
+    EXPECT_FALSE(is_taken([](DrawnPart& part) { part.rate = 0; }));
+    EXPECT_FALSE(is_taken([](DrawnPart& part) { part.file = "../film.mp4"; }));
+}
+
 // A folder with the new file's name stands for the full disk: no new file can be made.
 TEST(RunJson, IsWrittenInPlaceWhereNoNewFileCanBeHad) {
     const TemporaryFolder here;

@@ -4,17 +4,14 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 
-#include "engine/base/plain_file.hpp"
 #include "engine/files/measures_csv.hpp"
+#include "engine/files/run_json.hpp"
 
 namespace grainreel {
 namespace {
 
-using Json = nlohmann::json;
 using State = MemberResult::State;
 
 State state_of(const std::string& status) {
@@ -23,16 +20,13 @@ State state_of(const std::string& status) {
 }
 
 void read_record(const std::filesystem::path& path, MemberResult& result) {
-    std::ifstream file = read_plain(path);
-    const Json record = Json::parse(file);
-    result.state = state_of(record.at("status").get<std::string>());
-    if (record.at("error").is_string()) result.error = record["error"].get<std::string>();
-    result.warnings = record.at("warnings").get<std::vector<std::string>>();
-    const Json& engine = record.at("engine");
-    result.simulated = engine.at("simulated_s").get<double>();
-    result.particle_steps_per_second = engine.at("particle_steps_per_second").get<double>();
-    const Json& frames = record.at("written").at("film_frames");
-    result.has_film = frames.is_number() && frames.get<double>() > 0;
+    const ReadRunJson read = read_run_json(path);
+    result.state = state_of(read.status);
+    result.error = read.record.error;
+    result.warnings = read.record.warnings;
+    result.simulated = read.record.simulated;
+    result.particle_steps_per_second = read.record.particle_steps_per_second;
+    result.has_film = read.record.film_frames.value_or(0) > 0;
 }
 
 }  // namespace
@@ -54,12 +48,7 @@ std::string to_string(State state) {
 MemberResult read_result(const std::filesystem::path& folder, const std::vector<StudyMeasure>& measures) {
     MemberResult result;
     if (!std::filesystem::exists(folder / "run.json")) return result;
-    try {
-        read_record(folder / "run.json", result);
-    } catch (const Json::exception&) {
-        result = MemberResult();
-        result.state = State::incomplete;
-    }
+    read_record(folder / "run.json", result);
     result.values.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
     if (result.state != State::complete) return result;
     const auto table = read_measures(folder / "measures.csv");

@@ -1,110 +1,58 @@
-#include "render/page/facts/run_facts.hpp"
+#include "render/page/facts/methods.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 
-#include "engine/base/error.hpp"
 #include "engine/files/folder_lock.hpp"
-#include "engine/files/run_json.hpp"
 #include "engine/mesh/surface.hpp"
-#include "render/page/embed.hpp"
-#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
+ReadRunJson record_of_page(const std::filesystem::path& folder) {
+    ReadRunJson run = read_run_json(folder / "run.json");
+    if (run.status.empty()) run.status = "unknown";
+    if (lacks_only_page(run.record)) run.status = to_string(RunStatus::complete);
+    if (run.status == to_string(RunStatus::running) && !FolderLock::holder(folder)) run.status = "broken off";
+    return run;
+}
+
 namespace {
 
-using Json = nlohmann::json;
-
-// Follows a path of nested members; null when one is missing.
-const Json* member(const Json& record, std::initializer_list<const char*> path) {
-    const Json* at = &record;
-    for (const char* name : path) {
-        if (!at->is_object()) return nullptr;
-        const auto found = at->find(name);
-        if (found == at->end()) return nullptr;
-        at = &*found;
-    }
-    return at;
-}
-
-// A string, number or boolean in words; empty for anything else.
-std::string text_of(const Json* value) {
-    if (value == nullptr || value->is_structured() || value->is_null()) return "";
-    return value->is_string() ? value->get<std::string>() : value->dump();
-}
-
-// Parses a file. fault: becomes what is wrong with the file, if anything is.
-Json parsed(const std::filesystem::path& path, std::string& fault) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) {
-        fault = path.string() + ": is missing";
-        return {};
-    }
-    try {
-        const std::vector<std::uint8_t> bytes = read_bytes(path);
-        const bool may_throw = false;
-        Json record = Json::parse(bytes.begin(), bytes.end(), nullptr, may_throw);
-        if (record.is_discarded())
-            fault = path.string() + ": is damaged, for it is no JSON";
-        else if (!record.is_object() || !record.contains("status"))
-            fault = path.string() + ": is no record of a run";
-        return record;
-    } catch (const RunError& problem) {
-        fault = problem.what();
-        return {};
-    }
+std::string hash_text(const RunJson& record) {
+    return record.state_hash ? fmt::format("{:016x}", *record.state_hash) : "";
 }
 
 }  // namespace
 
-RunFacts run_facts(const std::filesystem::path& folder) {
-    RunFacts facts;
-    const Json record = parsed(folder / "run.json", facts.fault);
-    const auto text = [&](std::initializer_list<const char*> path) { return text_of(member(record, path)); };
-    facts.status = text({"status"}).empty() ? "unknown" : text({"status"});
-    if (lacks_only_page(folder / "run.json")) facts.status = "complete";
-    if (facts.status == "running" && !FolderLock::holder(folder)) facts.status = "broken off";
-    facts.error = text({"error"});
-    facts.version = text({"program", "version"});
-    facts.commit = text({"program", "commit"});
-    facts.finished = text({"finished"}).empty() ? text({"started"}) : text({"finished"});
-    facts.state_hash = text({"engine", "state_hash"});
-    const Json* frames = member(record, {"written", "film_frames"});
-    if (frames != nullptr && frames->is_number_integer()) facts.film_frames = frames->get<std::int64_t>();
-    const Json* kept = member(record, {"written", "trajectory_frames"});
-    if (kept != nullptr && kept->is_number_integer()) facts.trajectory_frames = kept->get<std::int64_t>();
-    const Json* rows = member(record, {"written", "measures_rows"});
-    if (rows != nullptr && rows->is_number_integer()) facts.measures_rows = rows->get<std::int64_t>();
+std::vector<std::pair<std::string, std::string>> origin_lines(const ReadRunJson& run) {
+    const RunJson& record = run.record;
+    const bool computed = record.step > 0;  // else the file tells nothing about the engine
+    std::vector<std::pair<std::string, std::string>> lines;
     const auto line = [&](const char* name, const std::string& words) {
-        if (!words.empty()) facts.lines.emplace_back(name, words);
+        if (!words.empty()) lines.emplace_back(name, words);
     };
-    line("status", facts.status);
-    line("error", text({"error"}));
-    line("command", text({"command"}));
-    line("scene file", text({"scene"}));
-    line("program", "grainreel " + facts.version + (facts.commit.empty() ? "" : ", commit " + facts.commit));
-    line("compiler", text({"program", "compiler"}));
-    line("seed", text({"engine", "seed"}));
-    line("step (s)", text({"engine", "step_s"}));
-    line("steps", text({"engine", "steps"}));
-    line("engine threads", text({"threads", "engine"}));
-    line("vector instructions", text({"engine", "vector"}));
-    line("hash of the end state", facts.state_hash);
-    line("started", text({"started"}));
-    line("finished", text({"finished"}));
-    line("film encoded by", text({"encoder"}));
-    line("film drawn by", text({"gl"}));
-    const Json* warnings = member(record, {"warnings"});
-    if (warnings != nullptr && warnings->is_array())
-        for (const Json& warning : *warnings)
-            if (warning.is_string()) facts.warnings.push_back(warning.get<std::string>());
-    return facts;
+    line("status", run.status);
+    line("error", record.error);
+    line("command", record.command);
+    line("scene file", record.scene_file);
+    line("program",
+         "grainreel " + record.version + (record.commit.empty() ? "" : ", commit " + record.commit));
+    line("compiler", record.compiler);
+    if (computed) line("seed", fmt::format("{}", record.seed));
+    if (computed) line("step (s)", fmt::format("{}", record.step));
+    if (computed) line("steps", fmt::format("{}", record.steps));
+    if (computed) line("engine threads", fmt::format("{}", record.engine_threads));
+    line("vector instructions", record.vector);
+    line("hash of the end state", hash_text(record));
+    line("started", record.started);
+    line("finished", record.finished);
+    line("film encoded by", record.encoder);
+    line("film drawn by", record.gl);
+    return lines;
 }
 
 namespace {
@@ -246,16 +194,17 @@ std::string meshes_text(const FilmedScene& scene) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-std::string program_entry(const RunFacts& facts) {
+std::string program_entry(const RunJson& record) {
+    const std::string& time = record.finished.empty() ? record.started : record.finished;
     return fmt::format(
         "@software{{grainreel,\n  author = {{{{The grainreel authors}}}},\n  title = {{grainreel}},\n"
         "  version = {{{}{}}},\n  year = {{{}}}\n}}\n",
-        facts.version, facts.commit.empty() ? "" : ", commit " + facts.commit, facts.finished.substr(0, 4));
+        record.version, record.commit.empty() ? "" : ", commit " + record.commit, time.substr(0, 4));
 }
 
 }  // namespace
 
-Methods methods(const FilmedScene& scene, const Plan& plan, const RunFacts& facts,
+Methods methods(const FilmedScene& scene, const Plan& plan, const RunJson& record,
                 const std::vector<std::pair<std::string, std::string>>& lines) {
     const LawWords laws(plan);
     Methods result;
@@ -267,7 +216,7 @@ Methods methods(const FilmedScene& scene, const Plan& plan, const RunFacts& fact
         "{}. Equations of motion were integrated by {} with a step of {:.4g} s, {} steps. Random numbers "
         "have the seed "
         "{}.",
-        facts.version, words_of(lines, "grains"), words_of(lines, "container"), words_of(lines, "gravity"),
+        record.version, words_of(lines, "grains"), words_of(lines, "container"), words_of(lines, "gravity"),
         words_of(lines, "drive"), laws.text(),
         range_text(plan, [](const PairPlan& pair) { return pair.restitution; }),
         range_text(plan, [](const PairPlan& pair) { return pair.friction; }), name_of(plan.integrator),
@@ -280,9 +229,9 @@ Methods methods(const FilmedScene& scene, const Plan& plan, const RunFacts& fact
             "{:.3g} "
             "degrees from their neighbours are one patch.",
             meshes_text(scene), kSmoothAngle * 180 / std::numbers::pi);
-    if (!facts.state_hash.empty())
-        result.paragraph += fmt::format(" The hash of the end state is {}.", facts.state_hash);
-    result.bibtex = program_entry(facts);
+    if (record.state_hash)
+        result.paragraph += fmt::format(" The hash of the end state is {}.", hash_text(record));
+    result.bibtex = program_entry(record);
     for (const Source& source : sources)
         if (laws.keys.count(source.key) > 0) result.bibtex += source.entry;
     return result;

@@ -1,0 +1,24 @@
+// Checks of HDF5 files, the other form of NetCDF, before the library opens them in earnest. The HDF5 library
+// follows pointers of a damaged file wherever they lead, so all that is to be read is tried in a child
+// process first.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+namespace grainreel {
+
+inline constexpr std::string_view kHdf5Signature("\x89HDF\r\n\x1a\n");
+
+bool is_hdf5(const std::filesystem::path& file);
+
+// Compares the length of an HDF5 file with its first bytes. Throws UserError where it was cut off, or where
+// its version is not known.
+void check_hdf5(const std::filesystem::path& file);
+
+// Does `work` in a child process for up to so many seconds, and tells whether the child survived. What the
+// child changed is lost. An exception counts as survival. Also returns true where no child can be made.
+bool survives(const std::function<void()>& work, unsigned seconds);
+
+}  // namespace grainreel
