@@ -90,6 +90,16 @@ inline std::string frame_text(const std::string& step, const std::string& count,
            "\nITEM: BOX BOUNDS pp pp ff\n0 1\n0 1\n0 1\nITEM: ATOMS " + names + "\n" + rows;
 }
 
+// Bytes that this process has asked the system for so far (man 5 proc).
+inline std::int64_t bytes_read() {
+    std::ifstream counters("/proc/self/io");
+    std::string name;
+    std::int64_t value = 0;
+    counters >> name >> value;
+    EXPECT_EQ(name, "rchar:");
+    return value;
+}
+
 inline std::string gzip_of(std::string_view bytes) {
     z_stream stream{};
     EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);

@@ -169,17 +169,6 @@ TEST(TextDump, PackedFramesInAnyOrder) {
     }
 }
 
-// The file is larger than a reader's buffer of lines, and each row has its own formula.
-// Bytes that this process has asked the system for so far (man 5 proc).
-std::int64_t bytes_read() {
-    std::ifstream counters("/proc/self/io");
-    std::string name;
-    std::int64_t value = 0;
-    counters >> name >> value;
-    EXPECT_EQ(name, "rchar:");
-    return value;
-}
-
 // The reader's buffer holds more than two of these frames, so reading each frame anew takes over twice the
 // file.
 TEST(TextDump, FramesInOrderAreReadOnce) {
@@ -194,6 +183,7 @@ TEST(TextDump, FramesInOrderAreReadOnce) {
     EXPECT_LT(static_cast<double>(bytes_read() - before), 1.1 * static_cast<double>(text.size()));
 }
 
+// The file is larger than a reader's buffer of lines, and each row has its own formula.
 TEST(TextDump, ManyRows) {
     constexpr int count = 60000;
     const DumpFolder folder;

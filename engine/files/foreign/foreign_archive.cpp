@@ -100,34 +100,51 @@ void ForeignArchive::list_moments() {
 }
 
 const RawFrame& ForeignArchive::raw(std::size_t index) const {
-    if (!last_ || last_->first != index) last_.emplace(index, grains_->read(index));
-    return last_->second;
+    auto& slot = last_[derived_ ? index % last_.size() : 0];
+    if (!slot || slot->first != index) {
+        slot.reset();  // so that two frames need not fit into memory
+        slot.emplace(index, grains_->read(index));
+    }
+    return slot->second;
 }
 
-// Number of frames in which types are looked for.
-std::size_t ForeignArchive::most_looks() const {
+// The frames in which types are looked for; of many frames only some.
+std::vector<std::size_t> ForeignArchive::looks() const {
     constexpr std::uintmax_t small = 32 << 20;  // bytes; so many are read in a moment
+    constexpr std::size_t most = 64;
     std::uintmax_t bytes = 0;
     std::error_code ignored;
     for (const fs::path& file : grains_->files()) bytes += fs::file_size(file, ignored);
-    return looks_ == Looks::all || bytes <= small ? moments_.size() : 64;
-}
-
-// Finds out which types there are, how many grains, and what the columns mean. Of many frames only some are
-// read.
-void ForeignArchive::survey() {
-    const std::size_t frames = moments_.size(), most = std::max<std::size_t>(1, most_looks());
-    const std::size_t stride = std::max<std::size_t>(1, (frames + most - 1) / most);
+    const std::size_t frames = moments_.size();
+    const bool all = bytes <= small || looks_ == Looks::first;
+    const std::size_t stride = all ? 1 : std::max<std::size_t>(1, (frames + most - 1) / most);
     std::vector<std::size_t> looks;
     for (std::size_t k = 0; k < frames; k += stride) looks.push_back(k);
     if (frames > 0 && looks.back() != frames - 1) looks.push_back(frames - 1);
-    for (const std::size_t k : looks) {
-        const RawFrame& frame = raw(k);
-        world_.most_grains = std::max(world_.most_grains, frame.grains.rows);
-        if (frame.grains.rows == 0) continue;
-        if (!meaning_) meaning_.emplace(grains_->facts(), frame, options_, grains_->files().front().string());
-        meaning_->add_types(frame, types_);
+    return looks;
+}
+
+// Takes types and number of grains from a frame, and from the first with grains what its columns mean.
+// Returns whether it has grains.
+bool ForeignArchive::look_at(std::size_t index) {
+    const RawFrame& frame = raw(index);
+    world_.most_grains = std::max(world_.most_grains, frame.grains.rows);
+    if (frame.grains.rows == 0) return false;
+    if (!meaning_) {
+        meaning_.emplace(grains_->facts(), frame, options_, grains_->files().front().string());
+        first_with_grains_ = index;
     }
+    meaning_->add_types(frame, types_);
+    return true;
+}
+
+// Finds out which types there are, how many grains, and what the columns mean.
+void ForeignArchive::survey() {
+    const std::size_t frames = moments_.size();
+    for (const std::size_t k : looks())
+        if (look_at(k) && looks_ == Looks::first) break;
+    for (const RawMoment& moment : grains_->moments())
+        world_.most_grains = std::max(world_.most_grains, static_cast<std::size_t>(moment.grains));
     for (const auto& [word, name] : options_.species) types_.add(word);
     if (!meaning_) {
         // No frame has a grain, so the columns get the meaning of an empty table.
@@ -191,6 +208,25 @@ void ForeignArchive::check_contact_columns() {
 void ForeignArchive::make_world() {
     world_.title = path_.filename().string();
     world_.program_version = grains_->facts().program;
+    make_species();
+    for (const RawMoment& moment : grains_->moments())
+        world_.traffic = world_.traffic || moment.grains != grains_->moments().front().grains;
+    world_.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
+    add_box();
+    std::set<std::string> names;
+    for (MovingWall& wall : walls_) {
+        std::string name = wall.name.empty() ? "wall" : wall.name;
+        for (int k = 2; names.count(name) > 0; ++k)
+            name = fmt::format("{} {}", wall.name.empty() ? "wall" : wall.name, k);
+        names.insert(name);
+        wall.name = name;
+        world_.bodies.push_back({name, {}, wall.shape});
+    }
+}
+
+// The species of the types, with sizes, densities and box of the first frame that has grains.
+void ForeignArchive::make_species() {
+    world_.species.clear();
     for (const std::string& word : types_.words()) {
         WorldSpecies& species = world_.species.emplace_back();
         const auto named = options_.species.find(word);
@@ -217,19 +253,17 @@ void ForeignArchive::make_world() {
         }
         world_.cell = meaning_->cell(frame);
     }
-    for (const RawMoment& moment : grains_->moments())
-        world_.traffic = world_.traffic || moment.grains != grains_->moments().front().grains;
-    world_.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
-    add_box();
-    std::set<std::string> names;
-    for (MovingWall& wall : walls_) {
-        std::string name = wall.name.empty() ? "wall" : wall.name;
-        for (int k = 2; names.count(name) > 0; ++k)
-            name = fmt::format("{} {}", wall.name.empty() ? "wall" : wall.name, k);
-        names.insert(name);
-        wall.name = name;
-        world_.bodies.push_back({name, {}, wall.shape});
-    }
+}
+
+bool ForeignArchive::take_types(std::size_t index) {
+    const std::size_t had = types_.words().size();
+    const std::size_t first = derived_ && index > 0 ? index - 1 : index;
+    const std::size_t last = derived_ ? std::min(index + 1, moments_.size() - 1) : index;
+    for (std::size_t k = first; k <= last; ++k)
+        if (const RawFrame& frame = raw(k); frame.grains.rows > 0) meaning_->add_types(frame, types_);
+    const bool more = types_.words().size() > had;
+    if (more) make_species();
+    return more;
 }
 
 Frame ForeignArchive::read(std::size_t index) const {
@@ -288,7 +322,10 @@ void ForeignArchive::decide_velocities() {
     if (meaning_->has_velocities() || !world_.time_known || !meaning_->has_ids() || moments_.size() < 2)
         return;
     const std::size_t middle = (moments_.size() - 1) / 2;
-    const Frame before = read(middle), after = read(middle + 1);
+    take_types(middle);
+    const Frame before = read(middle);
+    take_types(middle + 1);
+    const Frame after = read(middle + 1);
     std::size_t near = 0, both = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const std::optional<std::size_t> row = after.row_of(before.id[i]);

@@ -4,6 +4,7 @@
 // single format.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -60,10 +61,11 @@ bool is_foreign(const std::filesystem::path& path);
 
 class ForeignArchive final : public FrameArchive {
   public:
-    // The number of frames in which types are looked for. some: all frames of small files and 64 of others,
-    // so that a question about one frame need not wait long. A frame with a type that was not found throws
-    // UnknownType.
-    enum class Looks { some, all };
+    // The frames in which types are looked for. some: all frames of small files and 64 of others, so that a
+    // question about one frame need not wait long. first: only the first frame with grains, for code that
+    // reads all frames in order and calls take_types() before each. A frame with a type that was not found
+    // throws UserError.
+    enum class Looks { first, some };
 
     // path: a file, a pattern, or a folder. Throws UserError where nothing there can be read or its reader
     // finds something wrong.
@@ -78,6 +80,14 @@ class ForeignArchive final : public FrameArchive {
     std::optional<std::vector<Touch>> touches(std::size_t index) const override;
     bool has_contacts_of(std::size_t) const override { return has_contacts_; }
     std::vector<std::string> news() const override { return news_; }
+
+    // Adds the types of a frame, and of those beside it that its velocities come from, to the species of the
+    // world. Returns whether any is new; then species that follow it have other numbers than before.
+    bool take_types(std::size_t index);
+    // The words that the files have for the types, in the order of the species.
+    const std::vector<std::string>& types() const { return types_.words(); }
+    // The first frame with grains; 0 where no frame has any.
+    std::size_t first_with_grains() const { return first_with_grains_; }
 
     // The walls. Wall k is body kFirstPlaneBody + k.
     const std::vector<MovingWall>& walls() const { return walls_; }
@@ -97,10 +107,12 @@ class ForeignArchive final : public FrameArchive {
     void add_companions(const std::filesystem::path& file);
     void list_moments();
     void survey();
-    std::size_t most_looks() const;
+    std::vector<std::size_t> looks() const;
+    bool look_at(std::size_t index);
     void survey_contacts();
     void check_contact_columns();
     void make_world();
+    void make_species();
     void read_walls();
     void add_box();
     void match_walls();
@@ -126,9 +138,11 @@ class ForeignArchive final : public FrameArchive {
     std::vector<WallMoment> wall_moments_;
     std::vector<std::vector<std::size_t>> wall_at_;  // for each moment and wall: the number of its pose
     bool has_contacts_ = false, derived_ = false;
+    std::size_t first_with_grains_ = 0;
     std::vector<std::string> news_;
-    mutable std::optional<std::pair<std::size_t, RawFrame>>
-        last_;  // the frame that was read last, and its number
+    // The frames that were read last, with their numbers: one, or three in a row where velocities come from
+    // the frames beside each. Frame k is in slot k modulo their number.
+    mutable std::array<std::optional<std::pair<std::size_t, RawFrame>>, 3> last_;
     const RawFrame& raw(std::size_t index) const;
 };
 

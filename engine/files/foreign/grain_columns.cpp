@@ -292,7 +292,7 @@ Frame GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
             last_type = type;
         }
         if (!species)
-            throw UnknownType(
+            throw UserError(
                 fmt::format("{}: grain {} is of type {}, which no frame that was looked at first had; name "
                             "all types by --species",
                             place, ids[row], type_of(raw, row)));

@@ -19,12 +19,6 @@
 
 namespace grainreel {
 
-// A frame has a type that was not found in the frames that were looked at.
-class UnknownType : public UserError {
-  public:
-    using UserError::UserError;
-};
-
 // The types of a run in the order of the species, by the words that the files have for them ("1", "big").
 class TypeList {
   public:

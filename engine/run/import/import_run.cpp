@@ -1,27 +1,21 @@
 #include "engine/run/import/import_run.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
-#include <set>
+#include <optional>
 #include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/processor.hpp"
-#include "engine/files/contacts_file.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/world.hpp"
-#include "engine/files/measures_csv.hpp"
-#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/run/import/arrival.hpp"
 #include "engine/run/import/import_measures.hpp"
-#include "engine/run/import/import_ranges.hpp"
-#include "engine/scene/drive_schedule.hpp"
+#include "engine/run/import/import_scene.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "engine/state/body.hpp"
-#include "engine/state/container_faces.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 
@@ -45,7 +39,6 @@ class NewFolder {
     NewFolder(const NewFolder&) = delete;
     NewFolder& operator=(const NewFolder&) = delete;
 
-    const fs::path& path() const { return path_; }
     void keep() { kept_ = true; }
 
   private:
@@ -53,92 +46,54 @@ class NewFolder {
     bool kept_ = false;
 };
 
-ImportSurvey survey_of(const ForeignArchive& archive, const std::function<void(std::size_t)>& told) {
-    ImportSurvey survey;
-    const std::size_t species = archive.world().species.size();
-    survey.smallest.assign(species, 0);
-    survey.largest.assign(species, 0);
-    survey.most.assign(species, 0);
-    survey.low = Vec3::Constant(1e300);
-    survey.high = -survey.low;
-    std::set<std::int32_t> ids;
-    for (std::size_t k = 0; k < archive.moments().size(); ++k) {
-        const Frame frame = archive.grains(k);
-        std::vector<std::int64_t> count(species, 0);
-        for (std::size_t i = 0; i < frame.size(); ++i) {
-            const auto s = static_cast<std::size_t>(frame.species[i]);
-            const double diameter = 2 * frame.radius[i];
-            survey.smallest[s] = survey.smallest[s] > 0 ? std::min(survey.smallest[s], diameter) : diameter;
-            survey.largest[s] = std::max(survey.largest[s], diameter);
-            survey.low = survey.low.cwiseMin(frame.position[i] - frame.radius[i] * Vec3::Ones());
-            survey.high = survey.high.cwiseMax(frame.position[i] + frame.radius[i] * Vec3::Ones());
-            ++count[s];
-        }
-        // Most frames have the same grains as the frame before, in the same order.
-        for (const std::int32_t id : frame.id) ids.insert(ids.end(), id);
-        for (std::size_t s = 0; s < species; ++s) survey.most[s] = std::max(survey.most[s], count[s]);
-        told(k);
-    }
-    if (ids.empty()) survey.low = -(survey.high = Vec3::Constant(0.5));
-    survey.ids = static_cast<std::int64_t>(ids.size());
-    return survey;
-}
-
-// Completes a frame as a run of the scene would write it: with the drive's clock and the poses of the
-// container.
-class AsRun {
+// What the files of a run depend on is known only after all frames: which types and sizes there are, and how
+// many ids. So the files are begun for what the first frame says, and if this turns out to be wrong, they are
+// made again for what all frames said. Thus frames are read once, or at most twice.
+class Import {
   public:
-    AsRun(const Scene& scene, const std::vector<Frame>& moments, bool with_container)
-        : scene_(scene),
-          clock_(clock_of(scene, moments)),
-          with_container_(with_container),
-          bodies_(bodies_of(scene)) {}
-
-    const Clock& clock() const { return clock_; }
-    void complete(Frame& frame) const {
-        frame.cycles = clock_.cycles(frame.step);
-        frame.phase = clock_.phase(frame.step);
-        const Pose drive = WallMotion(scene_.drive, clock_).at(frame.step);
-        // The motions of the files' walls are part of the scene and pass through each moment.
-        frame.bodies = poses_of(bodies_, drive);
-        if (!with_container_ || scene_.drive.moves != Drive::Moves::container) return;
-        for (std::size_t i = 0; i < frame.size(); ++i) {
-            frame.position[i] += drive.offset;
-            frame.velocity[i] += drive.velocity;
-        }
+    explicit Import(const ImportRequest& request)
+        : request_(request),
+          archive_(request.from, request.reading, ForeignArchive::Looks::first),
+          depends_on_box_(!archive_.world().cell && request.reading.container.empty()) {
+        if (archive_.moments().empty())
+            throw UserError(fmt::format("{}: holds no frame", request.from.string()));
     }
+
+    // Makes the files in the request's folder, which is empty.
+    ImportedRun run();
 
   private:
-    const Scene& scene_;
-    Clock clock_;
-    bool with_container_;
-    std::vector<Body> bodies_;
+    // The files while they are written.
+    struct Files {
+        Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,
+              std::vector<std::string>& news);
+
+        const ImportWalls walls;
+        const std::string scene_text;
+        const Scene scene;
+        Arrival arrival;
+        std::optional<ImportWear> wear;
+    };
+
+    ImportSurvey first_guess();
+    void begin(const ImportSurvey& guess, bool may_fail);
+    void drop();
+    ImportSurvey read_all(const ImportSurvey& guess);
+    void take(std::size_t index, Frame frame);
+    void finish(const ImportSurvey& survey);
+
+    const ImportRequest& request_;
+    ForeignArchive archive_;
+    const bool depends_on_box_;   // whether the header of trajectory.nc depends on the box around the grains
+    std::optional<Files> files_;  // none while what was read does not fit the guess
+    std::int64_t last_step_ = 0;
+    ImportedRun run_;
 };
 
-std::vector<SavedContact> records_of(const std::vector<Touch>& touches, const Frame& frame) {
-    const auto row = [&](std::int32_t id) { return frame.row_of(id); };
-    std::vector<SavedContact> records;
-    for (const Touch& touch : touches) {
-        const std::optional<std::size_t> first = row(touch.first);
-        if (!first) continue;
-        SavedContact one{touch.first, touch.second, touch.force, Vec3(0, 0, 0), frame.position[*first]};
-        if (touch.second >= 0) {
-            const std::optional<std::size_t> second = row(touch.second);
-            // Contacts of grains that do not touch in the frame are left out. They are contacts across a
-            // periodic side, or of another moment.
-            if (!second) continue;
-            const Vec3 between = frame.position[*second] - frame.position[*first];
-            const double reach = frame.radius[*first] + frame.radius[*second];
-            if (between.norm() > 1.04 * reach) continue;
-            one.point = frame.position[*first] + between * (frame.radius[*first] / reach);
-        }
-        records.push_back(one);
-    }
-    return records;
-}
-
-// Reads the scene that was just written. Errors in it come from the files or the options.
-Scene scene_of(const fs::path& file, const ImportRequest& request) {
+// Writes scene.toml and reads it. Errors in it come from the files or the options.
+Scene written_and_read(const std::string& text, const ImportRequest& request) {
+    const fs::path file = request.folder / "scene.toml";
+    write_import_text(file, text);
     try {
         return read_scene(file, {}, measurable_in);
     } catch (const UserError& why) {
@@ -146,79 +101,126 @@ Scene scene_of(const fs::path& file, const ImportRequest& request) {
     }
 }
 
-}  // namespace
-
-namespace {
-
-ImportedRun import_of(const ImportRequest& request, const ForeignArchive& archive) {
-    ImportedRun run;
-    run.news = archive.news();
-    const double frames = static_cast<double>(archive.moments().size());
-    const auto tell = [&](double done) {
-        if (request.watcher && !request.watcher(done / (2 * frames)))
-            throw RunError("stopped while frames were read");
-    };
-    if (archive.moments().empty()) throw UserError(fmt::format("{}: holds no frame", request.from.string()));
-    NewFolder folder(request.folder);
-    const ImportSurvey survey = survey_of(archive, [&](std::size_t k) { tell(static_cast<double>(k)); });
-
-    write_import_scene(folder.path(), archive, survey, request.reading, run.news);
-    const Scene scene = scene_of(folder.path() / "scene.toml", request);
-    const AsRun as_run(scene, archive.moments(), request.reading.moves_with_container);
-
+ArrivalFacts arrival_facts(const Scene& scene, const ForeignArchive& archive, const ImportSurvey& survey,
+                           const ImportRequest& request) {
     World world = world_of(scene);
     world.title = archive.world().title;
     world.program_version = request.program_version;
     world.traffic = true;  // in a run of another program any grain may come and go
-    world.most_grains = static_cast<std::size_t>(std::max<std::int64_t>(1, survey.ids));
+    world.most_grains = std::max<std::size_t>(1, survey.places);
     if (archive.world().cell) world.cell = archive.world().cell;
-    FrameSupply supply = archive.supply();
-    TrajectoryWriter trajectory(folder.path() / "trajectory.nc", trajectory_info(world, supply));
-    std::optional<ContactsWriter> contacts;
-    if (supply.contacts)
-        contacts.emplace(folder.path() / "contacts.nc", world.title, request.program_version,
-                         file_facts(scene));
-    ImportMeasures measures(scene, as_run.clock(), supply);
-    MeasuresWriter table(folder.path() / "measures.csv", measures.names());
-    std::optional<ImportWear> wear;
-    if (ImportWear::known(archive)) {
-        wear.emplace(folder.path() / "fields.nc", scene, archive, request.program_version);
-        for (std::string& line : wear->news()) run.news.push_back(std::move(line));
+    ArrivalFacts facts;
+    facts.supply = archive.supply();
+    facts.header = trajectory_info(world, facts.supply);
+    facts.clock = clock_of(scene, archive.moments());
+    facts.in_container = request.reading.moves_with_container && scene.drive.moves == Drive::Moves::container;
+    facts.ranges = true;
+    return facts;
+}
+
+Import::Files::Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,
+                     std::vector<std::string>& news)
+    : walls(write_import_walls(request.folder, archive, request.reading, news)),
+      scene_text(import_scene_text(archive, survey, request.reading, walls, news)),
+      scene(written_and_read(scene_text, request)),
+      arrival(request.folder, scene, arrival_facts(scene, archive, survey, request)) {
+    if (!ImportWear::known(archive)) return;
+    wear.emplace(request.folder / "fields.nc", scene, archive, request.program_version);
+    for (std::string& line : wear->news()) news.push_back(std::move(line));
+}
+
+ImportSurvey Import::first_guess() {
+    const std::size_t first = archive_.first_with_grains();
+    archive_.take_types(first);
+    ImportSurvey guess;
+    guess.add(archive_.grains(first), archive_.types());
+    guess.places = std::max(guess.places, archive_.world().most_grains);
+    return guess;
+}
+
+// may_fail: whether a scene that cannot be read only means that the guess is wrong.
+void Import::begin(const ImportSurvey& guess, bool may_fail) {
+    run_ = ImportedRun();
+    run_.folder = request_.folder;
+    run_.news = archive_.news();
+    try {
+        files_.emplace(request_, archive_, guess, run_.news);
+    } catch (const UserError&) {
+        if (!may_fail) throw;
     }
-    ImportRanges ranges(scene, supply);
-    std::int64_t last_step = std::numeric_limits<std::int64_t>::min();
-    for (std::size_t k = 0; k < archive.moments().size(); ++k) {
-        Frame frame = archive.grains(k);
-        if (frame.step <= last_step && k > 0) continue;  // a second frame of the same moment
-        if (!archive.world().time_known && archive.moments().size() == 1) frame.step = 0;
-        last_step = frame.step;
-        as_run.complete(frame);
-        run.most_grains = std::max(run.most_grains, static_cast<std::int64_t>(frame.size()));
-        trajectory.write(frame);
-        const std::vector<Touch> touches = archive.touches(k).value_or(std::vector<Touch>());
-        if (contacts) contacts->write(run.frames, records_of(touches, frame));
-        table.write(measures.row(frame, touches));
-        ranges.add(frame, touches);
-        if (wear) wear->write(k);
-        ++run.frames;
-        tell(frames + static_cast<double>(k));
+}
+
+// Gives up the files that were begun, and their room on the disk.
+void Import::drop() {
+    files_.reset();
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(request_.folder, ignored))
+        fs::remove(entry.path(), ignored);
+}
+
+ImportSurvey Import::read_all(const ImportSurvey& guess) {
+    ImportSurvey survey;
+    const std::size_t frames = archive_.moments().size();
+    for (std::size_t k = 0; k < frames; ++k) {
+        if (request_.watcher && !request_.watcher(static_cast<double>(k) / static_cast<double>(frames)))
+            throw RunError("stopped while frames were read");
+        archive_.take_types(k);
+        Frame frame = archive_.grains(k);
+        survey.add(frame, archive_.types());
+        if (files_ && !survey.within(guess, depends_on_box_)) drop();
+        if (files_) take(k, std::move(frame));
     }
-    ranges.write(folder.path());
-    run.folder = folder.path();
-    folder.keep();
-    return run;
+    return survey;
+}
+
+void Import::take(std::size_t index, Frame frame) {
+    if (run_.frames > 0 && frame.step <= last_step_) return;  // a second frame of the same moment
+    last_step_ = frame.step;
+    if (!archive_.world().time_known && archive_.moments().size() == 1) frame.step = 0;
+    files_->arrival.complete(frame);
+    files_->arrival.take(frame, archive_.touches(index).value_or(std::vector<Touch>()));
+    if (files_->wear) files_->wear->write(index);
+    run_.frames = files_->arrival.frames();
+    run_.most_grains = std::max(run_.most_grains, static_cast<std::int64_t>(frame.size()));
+}
+
+// The scene's text also says where grains were and how many there were at most.
+void Import::finish(const ImportSurvey& survey) {
+    std::vector<std::string> said;
+    const std::string text = import_scene_text(archive_, survey, request_.reading, files_->walls, said);
+    if (text != files_->scene_text) {
+        const Scene scene = written_and_read(text, request_);
+        ImportMeasures(scene, clock_of(scene, archive_.moments()),
+                       archive_.supply());  // refuses what cannot be
+    }
+    files_->arrival.close();
+}
+
+ImportedRun Import::run() {
+    ImportSurvey guess = first_guess();
+    begin(guess, true);
+    ImportSurvey survey = read_all(guess);
+    if (!files_ || !guess.within(survey, depends_on_box_)) {
+        drop();
+        guess = std::move(survey);
+        begin(guess, false);
+        survey = read_all(guess);
+        if (!files_)
+            throw UserError(fmt::format("{}: changed while it was read; try it again once it is whole",
+                                        request_.from.string()));
+    }
+    finish(survey);
+    return run_;
 }
 
 }  // namespace
 
-// In long files the types of grains are looked for only in some frames. If another frame has more types, all
-// frames are looked at.
 ImportedRun import_run(const ImportRequest& request) {
-    try {
-        return import_of(request, ForeignArchive(request.from, request.reading));
-    } catch (const UnknownType&) {
-        return import_of(request, ForeignArchive(request.from, request.reading, ForeignArchive::Looks::all));
-    }
+    Import import(request);
+    NewFolder folder(request.folder);
+    ImportedRun run = import.run();
+    folder.keep();
+    return run;
 }
 
 }  // namespace grainreel

@@ -11,8 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/vector.hpp"
-#include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 
 namespace grainreel {
@@ -52,20 +50,5 @@ struct ImportsKept {
     std::string fault{};  // why nothing is imported there, in words; empty if all is well
 };
 ImportsKept imports_kept();
-
-// What is known after all frames were read.
-struct ImportSurvey {
-    Vec3 low{0, 0, 0}, high{0, 0, 0};       // m, corners of the box around all grains
-    std::vector<double> smallest, largest;  // m, diameters by species, or 0 without grains
-    std::vector<std::int64_t> most;         // by species: the most grains in one frame
-    std::int64_t ids = 0;                   // number of different ids
-};
-
-// Writes scene.toml with species and walls, and files with the shapes and motions of walls. It has no contact
-// law and no motion except that of walls. Throws RunError where a file cannot be written. news: gets what was
-// assumed.
-void write_import_scene(const std::filesystem::path& folder, const ForeignArchive& archive,
-                        const ImportSurvey& survey, const ReadingOptions& options,
-                        std::vector<std::string>& news);
 
 }  // namespace grainreel

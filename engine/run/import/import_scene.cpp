@@ -1,19 +1,18 @@
-// Writes the scene file that an imported run is read by: its grains, walls and times, as far as its files
-// say them.
-#include "engine/base/mathematics.hpp"
-#include "engine/base/rotation.hpp"
-#include "engine/run/import/import_run.hpp"
+#include "engine/run/import/import_scene.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numbers>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
+#include "engine/base/rotation.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/motion.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -21,6 +20,13 @@
 namespace grainreel {
 
 namespace fs = std::filesystem;
+
+void write_import_text(const fs::path& file, const std::string& text) {
+    std::ofstream out(file, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw RunError(fmt::format("{}: cannot be written; is the disk full?", file.string()));
+}
 
 namespace {
 
@@ -43,13 +49,6 @@ std::string triple(const Vec3& v) {
     return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
 }
 
-void write_text(const fs::path& file, const std::string& text) {
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw RunError(fmt::format("{}: cannot be written; is the disk full?", file.string()));
-}
-
 std::string species_text(const ForeignArchive& archive, const ImportSurvey& survey,
                          std::vector<std::string>& news) {
     std::string text;
@@ -58,10 +57,11 @@ std::string species_text(const ForeignArchive& archive, const ImportSurvey& surv
         const WorldSpecies& species = archive.world().species[s];
         const bool known = std::isfinite(species.density) && species.density > 0;
         guessed = guessed || !known;
-        const double small = survey.smallest[s] > 0 ? survey.smallest[s] : 1e-3;
-        const double large = survey.largest[s] > 0 ? survey.largest[s] : 1e-3;
+        const ImportSurvey::Species& seen = survey.species[s];
+        const double small = seen.smallest > 0 ? seen.smallest : 1e-3;
+        const double large = seen.largest > 0 ? seen.largest : 1e-3;
         text += fmt::format("\n[[species]]\nname = {}\ncount = {}\n", quoted(species.name),
-                            std::max<std::int64_t>(1, survey.most[s]));
+                            std::max<std::int64_t>(1, seen.most));
         text += large - small <= 1e-9 * large
                     ? fmt::format("diameter = {}\n", number(large))
                     : fmt::format("diameter = {{ min = {}, max = {} }}\n", number(small), number(large));
@@ -82,7 +82,7 @@ void write_ply(const fs::path& file, const TriangleMesh& mesh) {
         mesh.vertices.size(), mesh.triangles.size());
     for (const Vec3& v : mesh.vertices) text += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
     for (const auto& t : mesh.triangles) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
-    write_text(file, text);
+    write_import_text(file, text);
 }
 
 void add_row(std::string& text, double time, const BodyPose& pose) {
@@ -172,9 +172,9 @@ std::string walls_and_drive(const std::string& text) {
 // The volume (m3) of all grains in the tables of species. For a spread of diameters it uses the mean of d^3.
 double solid_of(const ImportSurvey& survey) {
     double solid = 0;
-    for (std::size_t s = 0; s < survey.most.size(); ++s) {
-        const double a = survey.smallest[s], b = survey.largest[s];
-        solid += static_cast<double>(survey.most[s]) * std::numbers::pi / 24 * (a + b) * (a * a + b * b);
+    for (const ImportSurvey::Species& species : survey.species) {
+        const double a = species.smallest, b = species.largest;
+        solid += static_cast<double>(species.most) * std::numbers::pi / 24 * (a + b) * (a * a + b * b);
     }
     return solid;
 }
@@ -183,17 +183,18 @@ double solid_of(const ImportSurvey& survey) {
 // packed here; the box only tells the camera what to show.
 std::string region_text(const ImportSurvey& survey) {
     constexpr double most_solid = 0.5;  // a scene may have up to 0.55
-    const Vec3 size = (survey.high - survey.low).cwiseMax(Vec3::Constant(1e-9));
+    const Vec3 low = survey.lowest(), high = survey.highest();
+    const Vec3 size = (high - low).cwiseMax(Vec3::Constant(1e-9));
     const double solid = solid_of(survey) / (most_solid * size.prod());
     const double grown = std::max(1e-9, 0.5 * (math::cbrt(solid) - 1));
     const Vec3 margin = grown * size;
-    return fmt::format("region = {{ low = {}, high = {} }}\n", triple(survey.low - margin),
-                       triple(survey.high + margin));
+    return fmt::format("region = {{ low = {}, high = {} }}\n", triple(low - margin), triple(high + margin));
 }
 
 // Whether the grains are discs in a plane: all lie within the thickness of the largest one.
 bool is_flat(const ImportSurvey& survey) {
-    const double largest = *std::max_element(survey.largest.begin(), survey.largest.end());
+    double largest = 0;
+    for (const ImportSurvey::Species& species : survey.species) largest = std::max(largest, species.largest);
     return largest > 0 && survey.high.z() - survey.low.z() <= (1 + 1e-9) * largest;
 }
 
@@ -218,13 +219,49 @@ std::string film_text(const ForeignArchive& archive, const ImportSurvey& survey,
 
 }  // namespace
 
-void write_import_scene(const fs::path& folder, const ForeignArchive& archive, const ImportSurvey& survey,
-                        const ReadingOptions& options, std::vector<std::string>& news) {
-    const std::vector<Frame>& moments = archive.moments();
-    std::string top =
-        fmt::format("# Made of {} ({}): what its files say, and nothing that could be run.\ntitle = {}\n",
-                    archive.path().string(), archive.format(), quoted(archive.world().title));
-    std::string walls;
+void ImportSurvey::add(const Frame& frame, const std::vector<std::string>& types) {
+    // A new type may come between two others.
+    std::vector<Species> now;
+    for (const std::string& type : types) {
+        const auto known = std::find_if(species.begin(), species.end(),
+                                        [&](const Species& one) { return one.type == type; });
+        now.push_back(known != species.end() ? *known : Species{type});
+    }
+    if (!now.empty()) species = std::move(now);
+    std::vector<std::int64_t> count(species.size(), 0);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        const auto s = static_cast<std::size_t>(frame.species[i]);
+        const double diameter = 2 * frame.radius[i];
+        Species& one = species[s];
+        one.smallest = one.smallest > 0 ? std::min(one.smallest, diameter) : diameter;
+        one.largest = std::max(one.largest, diameter);
+        low = low.cwiseMin(frame.position[i] - frame.radius[i] * Vec3::Ones());
+        high = high.cwiseMax(frame.position[i] + frame.radius[i] * Vec3::Ones());
+        ++count[s];
+    }
+    for (std::size_t s = 0; s < species.size(); ++s) species[s].most = std::max(species[s].most, count[s]);
+    // Most frames have the same grains as the frame before.
+    if (ids == frame.id) return;
+    std::vector<std::int32_t> both;
+    std::set_union(ids.begin(), ids.end(), frame.id.begin(), frame.id.end(), std::back_inserter(both));
+    ids = std::move(both);
+    places = std::max(places, ids.size());
+}
+
+bool ImportSurvey::within(const ImportSurvey& all, bool box) const {
+    if (places > all.places || species.size() != all.species.size()) return false;
+    for (std::size_t s = 0; s < species.size(); ++s) {
+        const Species &one = species[s], &other = all.species[s];
+        if (one.type != other.type || one.largest > other.largest) return false;
+        if (one.largest > 0 && one.smallest < other.smallest) return false;
+        if (box && one.most > other.most) return false;
+    }
+    return !box || ((low - all.low).minCoeff() >= 0 && (all.high - high).minCoeff() >= 0);
+}
+
+ImportWalls write_import_walls(const fs::path& folder, const ForeignArchive& archive,
+                               const ReadingOptions& options, std::vector<std::string>& news) {
+    ImportWalls text;
     if (!options.container.empty()) {
         const Scene scene = read_scene(options.container, {}, measurable_in);
         const std::string kept = walls_and_drive(written_scene(scene)) + "\n";
@@ -233,10 +270,10 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
         const std::size_t tables = kept.front() == '['         ? 0
                                    : line == std::string::npos ? kept.size()
                                                                : line + 1;
-        top += kept.substr(0, tables);
-        walls = "\n" + kept.substr(tables);
+        text.top = kept.substr(0, tables);
+        text.tables = "\n" + kept.substr(tables);
     } else {
-        walls = "\n[container]\nshape = \"none\"\n";
+        text.tables = "\n[container]\nshape = \"none\"\n";
     }
     std::vector<std::string> names;
     for (const WorldSpecies& species : archive.world().species) names.push_back(species.name);
@@ -246,23 +283,32 @@ void write_import_scene(const fs::path& folder, const ForeignArchive& archive, c
         write_ply(folder / file, wall.shape);
         const std::string name = mesh_name(wall.name, names);
         names.push_back(name);
-        walls += fmt::format("\n[[mesh]]\nname = {}\nfile = {}\n", quoted(name), quoted(file));
-        bool moves = wall.moves && moments.size() > 1;
+        text.tables += fmt::format("\n[[mesh]]\nname = {}\nfile = {}\n", quoted(name), quoted(file));
+        bool moves = wall.moves && archive.moments().size() > 1;
         if (moves) {
-            write_text(folder / path, path_text(archive, w));
+            write_import_text(folder / path, path_text(archive, w));
             moves = is_smooth(folder / path, wall.name, news);
         }
-        if (moves) walls += fmt::format("path = {}\n", quoted(path));
+        if (moves) text.tables += fmt::format("path = {}\n", quoted(path));
     }
+    return text;
+}
+
+std::string import_scene_text(const ForeignArchive& archive, const ImportSurvey& survey,
+                              const ReadingOptions& options, const ImportWalls& walls,
+                              std::vector<std::string>& news) {
+    const std::vector<Frame>& moments = archive.moments();
     const Frame& one = moments.back().step != 0 ? moments.back() : moments.front();
     const double step = one.step != 0 && one.time != 0 ? one.time / static_cast<double>(one.step) : 1e-6;
     // The container may be fuller than what can be packed, because a start from a file is not checked.
     const std::string start =
         options.container.empty() ? region_text(survey) : "method = \"file\"\nfile = \"final.csv\"\n";
-    const std::string begin = fmt::format("\n[start]\n{}\n[run]\nduration = {}\nstep = {}\n", start,
-                                          number(std::max(moments.back().time, step)), number(step));
-    write_text(folder / "scene.toml", top + species_text(archive, survey, news) + walls + begin +
-                                          film_text(archive, survey, !options.container.empty()));
+    return fmt::format("# Made of {} ({}): what its files say, and nothing that could be run.\ntitle = {}\n",
+                       archive.path().string(), archive.format(), quoted(archive.world().title)) +
+           walls.top + species_text(archive, survey, news) + walls.tables +
+           fmt::format("\n[start]\n{}\n[run]\nduration = {}\nstep = {}\n", start,
+                       number(std::max(moments.back().time, step)), number(step)) +
+           film_text(archive, survey, !options.container.empty());
 }
 
 }  // namespace grainreel

@@ -1,0 +1,74 @@
+#include "engine/run/import/arrival.hpp"
+
+#include <utility>
+
+#include "engine/files/file_facts.hpp"
+
+namespace grainreel {
+
+namespace {
+
+// The contacts with the points where they act. Contacts of grains that do not touch in the frame are left
+// out. They are contacts across a periodic side, or of another moment.
+std::vector<SavedContact> records_of(const std::vector<Touch>& touches, const Frame& frame) {
+    std::vector<SavedContact> records;
+    for (const Touch& touch : touches) {
+        const std::optional<std::size_t> first = frame.row_of(touch.first);
+        if (!first) continue;
+        SavedContact one{touch.first, touch.second, touch.force, Vec3(0, 0, 0), frame.position[*first]};
+        if (touch.second >= 0) {
+            const std::optional<std::size_t> second = frame.row_of(touch.second);
+            if (!second) continue;
+            const Vec3 between = frame.position[*second] - frame.position[*first];
+            const double reach = frame.radius[*first] + frame.radius[*second];
+            if (between.norm() > 1.04 * reach) continue;
+            one.point = frame.position[*first] + between * (frame.radius[*first] / reach);
+        }
+        records.push_back(one);
+    }
+    return records;
+}
+
+}  // namespace
+
+Arrival::Arrival(const std::filesystem::path& folder, const Scene& scene, ArrivalFacts facts)
+    : folder_(folder),
+      scene_(scene),
+      facts_(std::move(facts)),
+      motion_(scene.drive, facts_.clock),
+      bodies_(bodies_of(scene)),
+      trajectory_(folder / "trajectory.nc", facts_.header),
+      measures_(scene, facts_.clock, facts_.supply),
+      table_(folder / "measures.csv", measures_.names()),
+      ranges_(scene, facts_.supply) {
+    if (facts_.supply.contacts)
+        contacts_.emplace(folder / "contacts.nc", facts_.header.title, facts_.header.program_version,
+                          facts_.header.facts);
+}
+
+void Arrival::complete(Frame& frame) const {
+    frame.cycles = facts_.clock.cycles(frame.step);
+    frame.phase = facts_.clock.phase(frame.step);
+    const Pose drive = motion_.at(frame.step);
+    // The motions of the files' walls are part of the scene and pass through each moment.
+    frame.bodies = poses_of(bodies_, drive);
+    if (!facts_.in_container) return;
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        frame.position[i] += drive.offset;
+        frame.velocity[i] += drive.velocity;
+    }
+}
+
+void Arrival::take(const Frame& frame, const std::vector<Touch>& touches) {
+    const std::int64_t number = trajectory_.frames();
+    trajectory_.write(frame);
+    if (contacts_) contacts_->write(number, records_of(touches, frame));
+    table_.write(measures_.row(frame, touches));
+    if (facts_.ranges) ranges_.add(frame, touches);
+}
+
+void Arrival::close() {
+    if (facts_.ranges) ranges_.write(folder_);
+}
+
+}  // namespace grainreel

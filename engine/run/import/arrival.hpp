@@ -1,0 +1,60 @@
+// Writes the files of a run from the frames of another program, one frame after the other: trajectory.nc and
+// measures.csv, and contacts.nc and ranges.csv where they are wanted.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "engine/base/clock.hpp"
+#include "engine/files/contacts_file.hpp"
+#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/files/trajectory/trajectory.hpp"
+#include "engine/frame.hpp"
+#include "engine/run/import/import_measures.hpp"
+#include "engine/run/import/import_ranges.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/body.hpp"
+#include "engine/state/wall_motion.hpp"
+
+namespace grainreel {
+
+struct ArrivalFacts {
+    TrajectoryInfo header;
+    FrameSupply supply{};  // what the frames have
+    Clock clock{};
+    bool in_container = false;  // places and velocities of the frames are against the moving container
+    bool ranges = false;        // whether close() writes ranges.csv
+};
+
+class Arrival {
+  public:
+    // scene: that of the run; it must outlive this object. Throws RunError where a file cannot be made.
+    Arrival(const std::filesystem::path& folder, const Scene& scene, ArrivalFacts facts);
+
+    // Completes a frame that has step, time and grains as a run of the scene would write it: with the drive's
+    // clock, the poses of the bodies, and the grains in the room.
+    void complete(Frame& frame) const;
+    // Writes a completed frame and its contacts. Throws RunError where it cannot be written.
+    void take(const Frame& frame, const std::vector<Touch>& touches);
+    // Writes what is known only after the last frame.
+    void close();
+
+    std::int64_t frames() const { return trajectory_.frames(); }
+
+  private:
+    const std::filesystem::path folder_;
+    const Scene& scene_;
+    const ArrivalFacts facts_;
+    const WallMotion motion_;
+    const std::vector<Body> bodies_;
+    TrajectoryWriter trajectory_;
+    std::optional<ContactsWriter> contacts_;
+    ImportMeasures measures_;
+    MeasuresWriter table_;
+    ImportRanges ranges_;
+};
+
+}  // namespace grainreel
