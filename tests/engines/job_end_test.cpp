@@ -13,8 +13,8 @@
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/decks.hpp"
 #include "engine/handover/engine_job.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 namespace {

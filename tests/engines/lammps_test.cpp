@@ -5,8 +5,8 @@
 
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/state/wall_motion.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

@@ -105,7 +105,7 @@ class CappedFilmTest : public FilmTest, public ::testing::WithParamInterface<Fil
         scene.film.rate = 25;
         scene.film.quality = quality;
         scene.film.max_size = cap;
-        const auto writer = make_film_writer(scene, {folder, false, 2});
+        const auto writer = make_film_writer(scene, {folder.path(), false, 2});
         for (int i = 0; i < frames; ++i) writer->add(numbered(width, height, i));
         writer->finish();
         return writer->description();
@@ -199,7 +199,7 @@ class CappedGif : public FilmTest {
         scene.film.format = FilmFormat::gif;
         scene.film.rate = 25;
         scene.film.max_size = cap;
-        const auto writer = make_film_writer(scene, {folder, false, 1});
+        const auto writer = make_film_writer(scene, {folder.path(), false, 1});
         for (int i = 0; i < 25; ++i) writer->add(numbered(160, 96, i));
         writer->finish();
         return writer->description();

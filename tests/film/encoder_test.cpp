@@ -288,7 +288,7 @@ TEST_F(EncoderTest, AFileThatCannotBeWrittenIsARunError) {
 
 TEST_F(EncoderTest, AColonInARelativePathIsNoProtocol) {
     const std::filesystem::path before = std::filesystem::current_path();
-    std::filesystem::current_path(folder);
+    std::filesystem::current_path(folder.path());
     EncoderSettings s = settings();
     s.path = "run:1%.mp4";
     Encoder encoder(s);

@@ -112,7 +112,7 @@ std::unique_ptr<RawFile> open_binary(const std::filesystem::path& file) {
     return lammps_binary_format().open(file);
 }
 
-std::string binary_complaint(const DumpFolder& folder, std::string_view bytes) {
+std::string binary_complaint(const test::TemporaryFolder& folder, std::string_view bytes) {
     const auto file = folder.write("a.bin", bytes);
     return complaint_about(file, [&] {
         const auto dump = lammps_binary_format().open(file);
@@ -121,7 +121,7 @@ std::string binary_complaint(const DumpFolder& folder, std::string_view bytes) {
 }
 
 TEST(BinaryDump, WithNamesInBothByteOrders) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     for (const bool swapped : {false, true}) {
         Frame second{5000000000, 0, {{}, {}}};
         second.time = 0.75;
@@ -154,7 +154,7 @@ TEST(BinaryDump, WithNamesInBothByteOrders) {
 }
 
 TEST(BinaryDump, TiltedBoxes) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     Frame tilted;
     tilted.tilted = 1;
     tilted.box = {-1.5, 1,    -0.25, 2,    0,
@@ -174,7 +174,7 @@ TEST(BinaryDump, TiltedBoxes) {
 }
 
 TEST(BinaryDump, OldFilesWithoutNames) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const Rows rows{{1, 0.1, 0.2, 0.3}, {2, 0.4, 0.5, 0.6}};
     for (const bool swapped : {false, true})
         for (const bool narrow : {false, true})
@@ -214,7 +214,7 @@ TEST(BinaryDump, OtherFilesAreNotTaken) {
 }
 
 TEST(CutBinaryDump, WholeFramesAreRead) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const std::string whole = new_frame({}), last = new_frame({.step = 1});
     for (std::size_t kept = 1; kept < last.size(); ++kept) {
         const auto dump = open_binary(folder.write("a", whole + last.substr(0, kept)));
@@ -231,7 +231,7 @@ TEST(CutBinaryDump, WholeFramesAreRead) {
 }
 
 TEST(DamagedBinaryDump, IsRefusedWithItsByte) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const std::string whole = new_frame({});
     Frame f;
     f.claimed = 1000000000;

@@ -65,7 +65,7 @@ TEST(DumpBox, GeneralAndUnnamedTilts) {
 }
 
 TEST(DumpBox, WhatIsNoBoxIsRefusedWithItsLine) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto complaint = [&](const std::string& bounds, const std::string& count = "1") {
         return text_complaint(folder, "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + count +
                                           "\nITEM: BOX BOUNDS pp pp pp\n" + bounds + "ITEM: ATOMS id x\n" +

@@ -15,7 +15,7 @@ using testing::IsEmpty;
 constexpr const char* names = "id type x";
 
 TEST(DamagedTextDump, RowsAreRefusedWithTheirLine) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto complaint = [&](const std::string& count, const std::string& rows) {
         return text_complaint(folder, frame_text("7", count, names, rows));
     };
@@ -38,7 +38,7 @@ TEST(DamagedTextDump, RowsAreRefusedWithTheirLine) {
 }
 
 TEST(DamagedTextDump, WrongCounts) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const std::string good = frame_text("8", "1", names, "1 1 0\n");
     EXPECT_THAT(text_complaint(folder, frame_text("7", "2", names, "1 1 0\n") + good),
                 HasSubstr(":11: the frame of step 7 ends here after 1 rows, and line 1 says 2"));
@@ -53,7 +53,7 @@ TEST(DamagedTextDump, WrongCounts) {
 }
 
 TEST(DamagedTextDump, Heads) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const std::string good = frame_text("7", "1", names, "1 1 0\n");
     EXPECT_THAT(text_complaint(folder, "DUMMY\n" + good.substr(15)),
                 HasSubstr(":1: \"DUMMY\" stands where an \"ITEM: TIMESTEP\""));
@@ -83,13 +83,13 @@ TEST(DamagedTextDump, Heads) {
 
 // A line that does not end within the largest buffer is refused and not kept.
 TEST(DamagedTextDump, EndlessLine) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     EXPECT_THAT(text_complaint(folder, frame_text("7", "1", names, std::string(40 << 20, '1'))),
                 HasSubstr(":10: this line is longer than 16 MB"));
 }
 
 TEST(CutTextDump, WholeFramesAreReadAndTheLastIsLeftOut) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const std::string whole = frame_text("0", "2", names, "1 1 0.5\n2 1 0.25\n") +
                               frame_text("1", "2", names, "1 1 0.5\n2 1 0.125\n");
     const std::string last = frame_text("2", "2", names, "1 1 0.5\n2 1 0.375\n");
@@ -112,7 +112,7 @@ TEST(CutTextDump, WholeFramesAreReadAndTheLastIsLeftOut) {
 }
 
 TEST(CutTextDump, AHeadOfTimeAloneIsCutWhereFramesHaveTimes) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const std::string whole = "ITEM: TIME\n0.5\n" + frame_text("0", "1", names, "1 1 0\n");
     const auto dump = open_text(folder.write("a", whole + "ITEM: TIME\n0.75\n"));
     EXPECT_EQ(dump->moments().size(), 1u);
@@ -120,7 +120,7 @@ TEST(CutTextDump, AHeadOfTimeAloneIsCutWhereFramesHaveTimes) {
 }
 
 TEST(CutTextDump, NoWholeFrameIsAnError) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     EXPECT_THAT(text_complaint(folder, frame_text("2", "2", names, "1 1 0.5\n")),
                 HasSubstr(":1: no frame of this file is whole, neither is the one that begins here: it is "
                           "cut after 1 of its 2 rows"));
@@ -128,7 +128,7 @@ TEST(CutTextDump, NoWholeFrameIsAnError) {
 }
 
 TEST(CutTextDump, TheOnlyFrameMayEndWithoutALineFeed) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto dump = open_text(folder.write("a", frame_text("0", "2", names, "1 1 0.424637\n2 1 0.38212")));
     EXPECT_THAT(column_of(dump->read(0).grains, "x"), ElementsAre(0.424637, 0.38212));
     EXPECT_THAT(dump->news()[0], HasSubstr("no line ends behind its last row, which is taken as whole"));
@@ -163,7 +163,7 @@ TEST(CutTextDump, LastWords) {
 }
 
 TEST(CutTextDump, AGrowingFile) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto frame = [](int step) {
         return frame_text(std::to_string(step), "2", names,
                           "1 1 0.5\n2 1 0." + std::to_string(step + 1) + "5\n");
@@ -198,7 +198,7 @@ TEST(CutTextDump, AGrowingFile) {
 
 // The only frame is read without its last line feed. When the file goes on, it is another frame.
 TEST(CutTextDump, ANumberThatGrows) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto dump = open_text(folder.write("a", frame_text("0", "1", names, "1 1 0.2")));
     EXPECT_THAT(column_of(dump->read(0).grains, "x"), ElementsAre(0.2));
     folder.append("a", "5\n");

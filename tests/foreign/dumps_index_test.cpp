@@ -45,7 +45,7 @@ void expect_same(const TextIndex& a, const TextIndex& b) {
 }
 
 TEST(DumpIndex, ThroughBytesAndBack) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const TextIndex index = index_of(folder.write("a", frames(5) + "ITEM: TIME\n"));
     ASSERT_EQ(index.frames.size(), 5u);
     const std::string bytes = index_bytes(index);
@@ -62,7 +62,7 @@ TEST(DumpIndex, ThroughBytesAndBack) {
 }
 
 TEST(DumpIndex, BelongsToOneStateOfTheFile) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto file = folder.write("a", frames(5));
     const auto state = [&] { return FileBytes(file).state(); };
     EXPECT_FALSE(kept_index(file, state()));
@@ -99,7 +99,7 @@ TEST(DumpIndex, BelongsToOneStateOfTheFile) {
 
 // If no index can be written beside the file, it goes to the user's cache.
 TEST(DumpIndex, GoesToTheCacheWhereItMust) {
-    const DumpFolder folder, cache;
+    const test::TemporaryFolder folder, cache;
     const char* const before = std::getenv("XDG_CACHE_HOME");
     const std::string kept_before = before == nullptr ? "" : before;
     ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
@@ -120,7 +120,7 @@ TEST(DumpIndex, GoesToTheCacheWhereItMust) {
 // Everybody may make files beside a dump in /tmp. So an index counts only if the user, or the owner of the
 // dump, has made it, and if it is no link.
 TEST(DumpIndex, OfSomebodyElseIsNotBelieved) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto file = folder.write("a", frames(2));
     const auto index = folder.path() / ".a.grainreel-index";
     keep_index(file, FileBytes(file).state(), index_of(file));
@@ -138,7 +138,7 @@ TEST(DumpIndex, OfSomebodyElseIsNotBelieved) {
 
 // The second time, a large dump is opened by its index: a wrong step in the index is found in the result.
 TEST(DumpIndex, OfALargeDumpIsUsed) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     std::string rows;
     for (int k = 1; k <= 1000; ++k)
         rows += std::to_string(k) + " 0.12345678901234567 0.12345678901234567 0.12345678901234567\n";

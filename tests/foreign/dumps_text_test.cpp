@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(TextDump, RowsInAnyOrderAndFramesThatComeAndGo) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const std::string names = "id type x y z radius";
     const auto file =
         folder.write("a", frame_text("0", "0", names, "") +
@@ -47,7 +47,7 @@ TEST(TextDump, RowsInAnyOrderAndFramesThatComeAndGo) {
 }
 
 TEST(TextDump, UnitsTimeLabelsAndUnknownItems) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const std::string names = "id x";
     const auto file = folder.write(
         "a", "ITEM: UNITS\ncgs\nITEM: TIME\n0.5\n" + frame_text("1", "1", names, "1 2\n") +
@@ -63,7 +63,7 @@ TEST(TextDump, UnitsTimeLabelsAndUnknownItems) {
 }
 
 TEST(TextDump, LineEndsBlanksTabsAndNoLastLineFeed) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const std::string plain = frame_text("0", "2", "id type x", "1 1 0.5\n2 1 0.25\n");
     std::string windows;
     for (const char c : plain) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -78,7 +78,7 @@ TEST(TextDump, LineEndsBlanksTabsAndNoLastLineFeed) {
 
 // An editor on Windows may put a byte order mark before the first item.
 TEST(TextDump, AByteOrderMarkIsPassedOver) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto file =
         folder.write("marked", "\xef\xbb\xbf" + frame_text("0", "1", "id x y z radius", "9 1 2 3 4\n") +
                                    frame_text("7", "1", "id x y z radius", "9 5 2 3 4\n"));
@@ -89,7 +89,7 @@ TEST(TextDump, AByteOrderMarkIsPassedOver) {
 }
 
 TEST(TextDump, DoubledNamesAndWords) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto dump =
         open_text(folder.write("a", frame_text("0", "3", "id type type element c_1[2]",
                                                "1 1 5 Si nan\n2 1 6 O -inf\n3 2 7 Si 1e-400\n")));
@@ -106,7 +106,7 @@ TEST(TextDump, DoubledNamesAndWords) {
 }
 
 TEST(TextDump, PairsAreContacts) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const std::string box = "ITEM: BOX BOUNDS pp pp ff\n0 1\n0 1\n0 1\n";
     const auto dump = open_text(folder.write(
         "a", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n0\n" + box +
@@ -132,7 +132,7 @@ std::vector<std::string> names_in(const RawFile& dump) {
 }
 
 TEST(TextDump, OldFilesWithoutNames) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto scaled = open_text(
         folder.write("a", old_frame("-9 12\n", "1 1 0.1 0.2 0.3 0 0 -1\n2 1 1.01 0.5 0 0 0 0\n", 2)));
     EXPECT_THAT(names_in(*scaled), ElementsAre("id", "type", "xs", "ys", "zs", "ix", "iy", "iz"));
@@ -155,7 +155,7 @@ TEST(TextDump, OldFilesWithoutNames) {
 }
 
 TEST(TextDump, PackedFramesInAnyOrder) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     std::string first, second;
     for (int k = 0; k < 3; ++k)
         first += frame_text(std::to_string(k), "1", "id x", "1 " + std::to_string(10 + k) + "\n");
@@ -183,7 +183,7 @@ std::int64_t bytes_read() {
 // The reader's buffer holds more than two of these frames, so reading each frame anew takes over twice the
 // file.
 TEST(TextDump, FramesInOrderAreReadOnce) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     std::string rows;
     for (int i = 1; i <= 6000; ++i) rows += std::to_string(i) + " 1 0.0012345 0.0023456 0.0034567\n";
     std::string text;
@@ -196,7 +196,7 @@ TEST(TextDump, FramesInOrderAreReadOnce) {
 
 TEST(TextDump, ManyRows) {
     constexpr int count = 60000;
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     std::string rows;
     for (int k = 0; k < count; ++k)
         rows += std::to_string(k + 1) + " " + std::to_string(k * 0.125) + " 1e-3 \n";

@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -15,7 +15,7 @@
 #include <grainreel/run.hpp>
 #include <grainreel/simulation.hpp>
 
-#include "tests/library/own_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gr = grainreel;
 
@@ -49,7 +49,7 @@ gr::Scene scene() {
     return gr::Scene::from_text(two_sizes, "two_sizes.toml");
 }
 
-using Folder = OwnFolder;
+using Folder = grainreel::test::TemporaryFolder;
 
 // A spring with a dashpot, and a number of its own: how many calls the contact has seen.
 class Counting final : public gr::ContactLaw {

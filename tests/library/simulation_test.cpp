@@ -15,7 +15,7 @@
 #include <grainreel/run.hpp>
 #include <grainreel/simulation.hpp>
 
-#include "tests/library/own_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gr = grainreel;
 
@@ -104,7 +104,7 @@ TEST(LibraryError, HasTheWordsOfTheLibrary) {
                 StartsWith("setting run.duration: 'duration' "));
     EXPECT_EQ(message_of([] { scene("", {"run.duration"}); }),
               "setting run.duration: no assignment; write drive.frequency=\"30 Hz\"");
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     std::ofstream(folder / "there") << "not a run";
     gr::RunOptions options;
     options.folder = folder / "there";
@@ -213,7 +213,7 @@ TEST(LibraryInsert, LooksWhereTheWallsAreNow) {
 }
 
 TEST(LibraryInsert, RefusesPlacesInPlanesAndMeshes) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     std::ofstream cube(folder / "cube.obj");
     for (int k = 0; k < 8; ++k)
         cube << "v " << (k & 1 ? 0.004 : -0.004) << ' ' << (k & 2 ? 0.009 : 0.001) << ' '
@@ -238,7 +238,7 @@ TEST(LibraryInsert, RefusesPlacesInPlanesAndMeshes) {
 }
 
 TEST(LibraryCheckpoint, SaysWhatIsWrongWithIt) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     const auto opened = [&](const char* name, const gr::SimulationOptions& options = {}) {
         return error_of([&] { gr::Simulation::from_checkpoint(scene(), folder / name, options); });
     };

@@ -24,7 +24,7 @@ std::string complaint(const std::function<void()>& act) {
     return "no complaint";
 }
 
-std::string complaint_of(const MeshFolder& folder, std::string_view bytes) {
+std::string complaint_of(const test::TemporaryFolder& folder, std::string_view bytes) {
     const auto file = folder.write("m", bytes);
     const std::string message = complaint([&] { load_mesh(file); });
     EXPECT_EQ(message.substr(0, file.string().size() + 1), file.string() + ":") << message;
@@ -32,7 +32,7 @@ std::string complaint_of(const MeshFolder& folder, std::string_view bytes) {
 }
 
 TEST(DamagedMesh, WhatIsNoOrdinaryFile) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const auto complaint_at = [](const std::filesystem::path& file) {
         return complaint([&] { load_mesh(file); });
     };
@@ -48,7 +48,7 @@ TEST(DamagedMesh, WhatIsNoOrdinaryFile) {
 }
 
 TEST(DamagedMesh, BinaryStl) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const std::string good = binary_stl(plate(), "", 2);
     EXPECT_THAT(complaint_of(folder, ""), HasSubstr("is empty"));
     EXPECT_THAT(
@@ -76,7 +76,7 @@ TEST(DamagedMesh, BinaryStl) {
 }
 
 TEST(DamagedMesh, AsciiStl) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const std::string good = std::string("solid plate\n") + plate_facets + "endsolid plate\n";
     const auto with = [&](const std::string& old, const std::string& now) {
         std::string text = good;
@@ -100,7 +100,7 @@ TEST(DamagedMesh, AsciiStl) {
 }
 
 TEST(DamagedMesh, Obj) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     EXPECT_THAT(complaint_of(folder, vertices + "f 1 2 4\n"),
                 HasSubstr(":4: a face names vertex 4, and there are 3"));
@@ -120,7 +120,7 @@ TEST(DamagedMesh, Obj) {
 }
 
 TEST(DamagedMesh, Ply) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const auto head = [](const std::string& vertices, const std::string& faces,
                          const std::string& format = "ascii") {
         return "ply\nformat " + format + " 1.0\nelement vertex " + vertices +
@@ -168,7 +168,7 @@ TEST(DamagedMesh, Ply) {
 }
 
 TEST(DamagedMesh, TrianglesWithoutArea) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     EXPECT_THAT(complaint_of(folder, "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n"),
                 HasSubstr("all triangles of this mesh are without area"));
     EXPECT_THAT(complaint_of(folder, "v 5 5 5\nf 1 1 1\n"),
@@ -181,7 +181,7 @@ TEST(DamagedMesh, TrianglesWithoutArea) {
 
 // Whatever is done to a file, it is read or refused.
 TEST(DamagedMesh, RandomDamageIsReadOrRefused) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     std::mt19937 random(49);
     const std::string good[] = {
         binary_stl(plate(), "solid", 2), std::string("solid plate\n") + plate_facets + "endsolid plate\n",

@@ -111,8 +111,14 @@ def main():
     parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
     parser.add_argument("--instructions", action="store_true", help="also as on processors with less")
     job = parser.parse_args()
-    folder = job.out or Path(tempfile.mkdtemp(prefix="same_bits."))
-    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="same_bits.") as temporary:
+        folder = job.out or Path(temporary)
+        folder.mkdir(parents=True, exist_ok=True)
+        sys.exit(0 if all_alike(job, folder) else 1)
+
+
+def all_alike(job, folder):
+    """Makes the runs in a folder and prints the table."""
     variants = [("2 threads", job.program, {"threads": 2}), ("3 threads", job.program, {"threads": 3}),
                 ("resumed", job.program, {"stop_after": 0}),
                 ("C library without FMA", job.program, {"env": {**os.environ, **OTHER_LIBRARY}})]
@@ -142,7 +148,7 @@ def main():
             alike = alike and (not differ or as_before or name.startswith("SSE4"))
             before = made
         print(f"| {scene} | " + " | ".join(cells) + " |", flush=True)
-    sys.exit(0 if alike else 1)
+    return alike
 
 
 if __name__ == "__main__":

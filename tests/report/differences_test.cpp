@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "render/page/facts/run_names.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

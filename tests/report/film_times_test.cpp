@@ -6,7 +6,7 @@
 #include "render/film/sampling/film_frames.hpp"
 #include "render/page/page_film.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

@@ -9,7 +9,7 @@
 #include "render/film/codec/png.hpp"
 #include "render/page/page_film.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

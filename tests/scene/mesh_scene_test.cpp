@@ -31,9 +31,9 @@ const std::string driven = "[drive]\nfrequency = 20\namplitude = 0.001\n";
 class MeshScene : public testing::Test {
   protected:
     void SetUp() override {
-        files.put("plate.stl", plate(0.2));
-        files.put("tank.stl", box_of_sheets(0.1, 0.08));
-        files.put("path.csv", path_text);
+        files.write("plate.stl", plate(0.2));
+        files.write("tank.stl", box_of_sheets(0.1, 0.08));
+        files.write("path.csv", path_text);
     }
     // The mesh of a ball on a plate, with these additional keys.
     SceneMesh mesh(const std::string& keys, const std::string& more = "") const {
@@ -147,9 +147,9 @@ TEST_F(MeshScene, AVesselMayLieBelowTheOrigin) {
 }
 
 TEST_F(MeshScene, MeshesAreCutOutOfTheRoom) {
-    const Scene scene =
-        files.read(in_vessel + "[[mesh]]\nname = \"block\"\nfile = \"block.stl\"\n",
-                   {{"mesh.block.file=" + files.put("block.stl", box_of_sheets(0.04, 0.04, true)).string()}});
+    const Scene scene = files.read(
+        in_vessel + "[[mesh]]\nname = \"block\"\nfile = \"block.stl\"\n",
+        {{"mesh.block.file=" + files.write("block.stl", box_of_sheets(0.04, 0.04, true)).string()}});
     EXPECT_NEAR(FreeSpace(scene).volume(), 8e-4 - 0.04 * 0.04 * 0.04, 1e-5);
     EXPECT_FALSE(FreeSpace(scene).holds({0, 0, 0.02}, 0));
     EXPECT_FALSE(FreeSpace(scene).holds({0, 0, 0.044}, 0.005));
@@ -192,7 +192,7 @@ TEST_F(MeshScene, ExtentsHoldMeshesAsTheyMove) {
         with(ball_on_plate, "file = \"plate.stl\"\n", "file = \"plate.stl\"\nvelocity = [0, 1, 0]\n"));
     EXPECT_NEAR(extent_of(going).high.y(), 0.1 + 0.2, 1e-9);
     // A ground of 200 m does not count as a whole.
-    files.put("plate.stl", plate(200));
+    files.write("plate.stl", plate(200));
     EXPECT_LT(extent_of(files.read(ball_on_plate)).size().x(), 1);
 }
 
@@ -235,7 +235,7 @@ TEST_F(MeshScene, RunsNameTheirCopies) {
         ball_on_plate +
             "[[mesh]]\nfile = \"plate.stl\"\nposition = [0, 0, 1]\n"
             "[[mesh]]\nfile = \"shipped/../deep/plate.stl\"\npath = \"path.csv\"\nposition = [0, 0, 2]\n",
-        {{"mesh[2].file=" + files.put("deep/plate.stl", plate(0.3)).string()}});
+        {{"mesh[2].file=" + files.write("deep/plate.stl", plate(0.3)).string()}});
     const std::vector<KeptFile> kept = kept_files(scene);
     ASSERT_EQ(kept.size(), 3u);
     EXPECT_EQ(kept[0].name, "meshes/plate.stl");
@@ -257,13 +257,13 @@ TEST_F(MeshScene, RunsNameTheirCopies) {
     EXPECT_THAT(files.complaint(text), HasSubstr("meshes/plate.stl, which does not exist"));
 
     // Another file takes the place of the copy.
-    other.put("meshes/plate.stl", plate(0.21));
+    other.write("meshes/plate.stl", plate(0.21));
     const std::string wrong = other.complaint(text);
     EXPECT_THAT(wrong, HasSubstr("scene.toml:"));
     EXPECT_THAT(wrong, HasSubstr("'file' names meshes/plate.stl, which is another file now: its hash is "));
     EXPECT_THAT(wrong, HasSubstr(", but it was " + scene.meshes[0].hash + "; put the file back as it was"));
-    other.put("meshes/plate.stl", plate(0.2));
-    other.put("meshes/path.csv", path_text + "4,0.005,0,0\n");
+    other.write("meshes/plate.stl", plate(0.2));
+    other.write("meshes/path.csv", path_text + "4,0.005,0,0\n");
     EXPECT_THAT(other.complaint(text), HasSubstr("'path' names meshes/path.csv, which is another file now"));
 }
 
@@ -271,13 +271,13 @@ TEST_F(MeshScene, RefusesFilesThatAreNone) {
     EXPECT_EQ(files.complaint(with(ball_on_plate, "plate.stl", "drum.stl")),
               "scene.toml:12:1: 'file' names drum.stl, which does not exist; a relative path counts from the "
               "scene's folder");
-    files.put("empty.stl", "");
+    files.write("empty.stl", "");
     EXPECT_THAT(files.complaint(with(ball_on_plate, "plate.stl", "empty.stl")),
                 HasSubstr("scene.toml:12:1: 'file' names a file that cannot be used: empty.stl"));
     EXPECT_THAT(files.complaint(with(ball_on_plate, "file = \"plate.stl\"\n", "")),
                 HasSubstr("[[mesh]] lacks 'file'"));
     EXPECT_THAT(complaint("path = \"none.csv\"\n"), HasSubstr("'path' names none.csv, which does not exist"));
-    files.put("back.csv", "t,x,y,z\n0,0,0,0\n1,0,0,0\n0.5,0,0,0\n");
+    files.write("back.csv", "t,x,y,z\n0,0,0,0\n1,0,0,0\n0.5,0,0,0\n");
     EXPECT_THAT(
         complaint("path = \"back.csv\"\n"),
         HasSubstr("scene.toml:13:1: 'path' names a file that cannot be used: back.csv:4: the time is 0.5 s"));
@@ -329,7 +329,7 @@ TEST_F(MeshScene, RefusesWhatDoesNotGoTogether) {
          }) {
         EXPECT_THAT(complaint(keys, more), HasSubstr(says)) << keys << more;
     }
-    files.put("path.csv", "t,x,y,z\n0,0,0,0\n0.01,0,0,0\n0.02,0,0,0\n0.1,0,0,0\n");
+    files.write("path.csv", "t,x,y,z\n0,0,0,0\n0.01,0,0,0\n0.02,0,0,0\n0.1,0,0,0\n");
     EXPECT_THAT(
         complaint("path = \"path.csv\"\n"),
         HasSubstr("'path' ends at 0.1 s, but the run ends at 0.2 s (run.duration); add rows to path.csv"));
@@ -415,20 +415,20 @@ TEST_F(MeshScene, ContainersTurn) {
 }
 
 TEST_F(MeshScene, HintsAtMillimetres) {
-    files.put("plate.stl", plate(200));
+    files.write("plate.stl", plate(200));
     const Scene scene = files.read(ball_on_plate);
     ASSERT_EQ(scene.notes.size(), 1u);
     EXPECT_THAT(scene.notes[0],
                 HasSubstr("the mesh \"plate\" is 200 m large, beside grains of 0.01 m; where its file is "
                           "in mm, write scale = 0.001"));
-    files.put("plate.stl", plate(0.002));
+    files.write("plate.stl", plate(0.002));
     EXPECT_THAT(files.read(ball_on_plate).notes.at(0), HasSubstr("smaller than the smallest grain"));
 }
 
 TEST_F(MeshScene, TellsWhatWasMended) {
     MeshByHand twice = plate(0.2);
     twice.push_back(twice.front());
-    files.put("plate.stl", twice);
+    files.write("plate.stl", twice);
     ASSERT_EQ(files.read(ball_on_plate).notes.size(), 1u);
     EXPECT_THAT(files.read(ball_on_plate).notes[0], HasSubstr("scene.toml:12:1: mesh \"plate\": "));
 }

@@ -3,16 +3,15 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 
@@ -60,32 +59,15 @@ inline std::string stl_text(const MeshByHand& mesh) {
     return text + "endsolid\n";
 }
 
-// A folder with scenes and meshes, which is removed at the end.
-class MeshScenes {
+// A folder with scenes and meshes.
+class MeshScenes : public test::TemporaryFolder {
   public:
-    MeshScenes() {
-        std::string name = (std::filesystem::temp_directory_path() / "grainreel-mesh-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw RunError("no temporary folder");
-        path_ = name;
-    }
-    ~MeshScenes() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    MeshScenes(const MeshScenes&) = delete;
-    MeshScenes& operator=(const MeshScenes&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-    std::filesystem::path put(const std::string& name, const std::string& text) const {
-        std::filesystem::create_directories((path_ / name).parent_path());
-        std::ofstream(path_ / name) << text;
-        return path_ / name;
-    }
-    std::filesystem::path put(const std::string& name, const MeshByHand& mesh) const {
-        return put(name, stl_text(mesh));
+    using TemporaryFolder::write;
+    std::filesystem::path write(const std::string& name, const MeshByHand& mesh) const {
+        return write(name, stl_text(mesh));
     }
     Scene read(const std::string& text, const Assignments& sets = {}) const {
-        return read_scene_text(text, path_ / "scene.toml", sets);
+        return read_scene_text(text, path() / "scene.toml", sets);
     }
     // The reader's message for a scene, without the test's folder; "none" if the scene is right.
     std::string complaint(const std::string& text, const Assignments& sets = {}) const {
@@ -93,16 +75,13 @@ class MeshScenes {
             read(text, sets);
         } catch (const UserError& error) {
             std::string what = error.what();
-            const std::string folder = path_.string() + "/";
+            const std::string folder = path().string() + "/";
             for (std::size_t at; (at = what.find(folder)) != std::string::npos;)
                 what.erase(at, folder.size());
             return what;
         }
         return "none";
     }
-
-  private:
-    std::filesystem::path path_;
 };
 
 // A ball above a plate from a file, in the smallest scene that has a mesh.

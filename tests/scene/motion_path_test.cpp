@@ -43,8 +43,8 @@ double worst_place(const MotionPath& path) {
 // The error of a cubic spline falls with the fourth power of the distance between its points.
 TEST(MotionPath, FollowsASineToTheFourthPowerOfItsSteps) {
     const MeshScenes files;
-    const double coarse = worst_place(*MotionPath::read(files.put("coarse.csv", sines(40, false))));
-    const double fine = worst_place(*MotionPath::read(files.put("fine.csv", sines(80, false))));
+    const double coarse = worst_place(*MotionPath::read(files.write("coarse.csv", sines(40, false))));
+    const double fine = worst_place(*MotionPath::read(files.write("fine.csv", sines(80, false))));
     // 5/384 h^4 |f''''| is the bound of de Boor, ch. V.
     const double h = 2 * period / 80,
                  bound = 5.0 / 384 * std::pow(2 * pi * h / period, 4) * std::sqrt(5.0) * amplitude;
@@ -56,7 +56,7 @@ TEST(MotionPath, FollowsASineToTheFourthPowerOfItsSteps) {
 TEST(MotionPath, VelocityAndSpinAreTheDerivatives) {
     const MeshScenes files;
     const Vec3 pivot(0.02, -0.01, 0.05);
-    const auto path = MotionPath::read(files.put("path.csv", sines(64, true)), pivot);
+    const auto path = MotionPath::read(files.write("path.csv", sines(64, true)), pivot);
     ASSERT_TRUE(path->turns());
     constexpr double dt = 1e-6;
     for (int k = 1; k < 100; ++k) {
@@ -77,7 +77,7 @@ TEST(MotionPath, VelocityAndSpinAreTheDerivatives) {
 TEST(MotionPath, StandsBeforeAndAfter) {
     const MeshScenes files;
     const auto path =
-        MotionPath::read(files.put("path.csv", "t,x,y,z\n-1,-1,0,0\n0,0,0,0\n1,1,0,0\n2,2,0,0\n"));
+        MotionPath::read(files.write("path.csv", "t,x,y,z\n-1,-1,0,0\n0,0,0,0\n1,1,0,0\n2,2,0,0\n"));
     EXPECT_EQ(path->at(-3).place, Vec3(-1, 0, 0));
     EXPECT_EQ(path->at(-3).velocity, Vec3(0, 0, 0));
     EXPECT_LT((path->at(0.25).place - Vec3(0.25, 0, 0)).norm(), 1e-15);
@@ -96,8 +96,8 @@ TEST(MotionPath, TakesQuaternionsOfEitherSign) {
                                 (i % 2 ? sign : 1) * std::sin(0.1 * i));
         return rows;
     };
-    const auto plain = MotionPath::read(files.put("plain.csv", text(1)));
-    const auto flipped = MotionPath::read(files.put("flipped.csv", text(-1)));
+    const auto plain = MotionPath::read(files.write("plain.csv", text(1)));
+    const auto flipped = MotionPath::read(files.write("flipped.csv", text(-1)));
     for (int k = 0; k <= 40; ++k) {
         EXPECT_EQ(plain->at(0.05 * k).spin, flipped->at(0.05 * k).spin);
         EXPECT_EQ(plain->at(0.05 * k).rotation.coeffs(), flipped->at(0.05 * k).rotation.coeffs());
@@ -107,7 +107,7 @@ TEST(MotionPath, TakesQuaternionsOfEitherSign) {
 
 std::string complaint(const MeshScenes& files, const std::string& text) {
     try {
-        MotionPath::read(files.put("path.csv", text));
+        MotionPath::read(files.write("path.csv", text));
     } catch (const UserError& error) {
         return std::string(error.what()).substr(files.path().string().size() + 1);
     }

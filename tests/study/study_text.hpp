@@ -5,7 +5,7 @@
 
 #include "render/app/study/file/read_study.hpp"
 #include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 

@@ -14,7 +14,7 @@
 #include "engine/base/error.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

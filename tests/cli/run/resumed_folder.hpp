@@ -13,7 +13,7 @@
 #include "engine/files/run_names.hpp"
 #include "tests/cli/busy_scene.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "engine/base/error.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

@@ -13,7 +13,7 @@
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

@@ -13,7 +13,7 @@
 #include "engine/files/contacts_file.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "tests/cli/made_frame.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

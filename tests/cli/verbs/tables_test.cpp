@@ -15,7 +15,7 @@
 #include "engine/grain_table.hpp"
 #include "engine/run/folder/listener.hpp"
 #include "tests/cli/made_frame.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

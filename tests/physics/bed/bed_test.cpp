@@ -13,8 +13,8 @@
 #include "engine/start/layers.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/step/grid/neighbours.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

@@ -11,8 +11,8 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 class KeptMeshes : public testing::Test {
   protected:
     void SetUp() override {
-        files.put("meshes of mine/plate.stl", plate(0.2));
+        files.write("meshes of mine/plate.stl", plate(0.2));
         std::string text = ball_on_plate;
         text.replace(text.find("plate.stl"), 9, "meshes of mine/plate.stl");
         text.replace(text.find("0.2 s"), 5, "1 ms");
@@ -57,7 +57,7 @@ TEST_F(KeptMeshes, ARunsFolderNeedsNothingElse) {
 }
 
 TEST_F(KeptMeshes, AnotherFileIsRefused) {
-    files.put("run/meshes/plate.stl", plate(0.3));
+    files.write("run/meshes/plate.stl", plate(0.3));
     const std::string now = hash_of_file(files.path() / "run" / "meshes" / "plate.stl");
     for (const std::string& wrong :
          {complaint([&] { plain_scene_of_run(files.path() / "run"); }),
@@ -68,7 +68,7 @@ TEST_F(KeptMeshes, AnotherFileIsRefused) {
 
 // The copy is the file that was read.
 TEST_F(KeptMeshes, AFileThatChangesMeanwhileIsNotKept) {
-    files.put("meshes of mine/plate.stl", plate(0.3));
+    files.write("meshes of mine/plate.stl", plate(0.3));
     EXPECT_THAT(complaint([&] { keep_mesh_files(scene, files.path() / "other"); }),
                 HasSubstr("plate.stl: has changed since it was read; start again"));
     EXPECT_FALSE(fs::exists(files.path() / "other" / "meshes" / "plate.stl"));

@@ -12,8 +12,8 @@
 #include "engine/run/folder/scene_folder_run.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

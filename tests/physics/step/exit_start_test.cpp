@@ -11,9 +11,9 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/mesh/mesh_files.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

@@ -2,7 +2,6 @@
 // mass and energy of a bed that runs out.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -14,6 +13,7 @@
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/surroundings.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -351,9 +351,8 @@ TEST(Outlet, ABedRunsOutAlikeOnAnyNumberOfThreadsAndThroughACheckpoint) {
         const Plan plan = make_plan(scene);
         ASSERT_TRUE(plan.opens);
         std::uint64_t bits = 0;
-        const std::filesystem::path folder = std::filesystem::temp_directory_path(),
-                                    opened = folder / fmt::format("opened{}.grs", getpid()),
-                                    later = folder / fmt::format("later{}.grs", getpid());
+        const test::TemporaryFolder folder;
+        const std::filesystem::path opened = folder / "opened.grs", later = folder / "later.grs";
         for (const int threads : {1, 2, 3}) {
             Simulation run(scene, plan, threads);
             run.pack();
@@ -375,7 +374,6 @@ TEST(Outlet, ABedRunsOutAlikeOnAnyNumberOfThreadsAndThroughACheckpoint) {
             Simulation on(next, plan, 2);
             on.advance(plan.steps);
             EXPECT_EQ(on.state_hash(), bits) << file;
-            std::filesystem::remove(file);
         }
     }
 }
@@ -422,8 +420,8 @@ TEST(Outlet, WhatFlowsOutIsKnownWhileAFeedGivesGrains) {
         text, "outlet.toml", with_tested_precision({"species.grain.count=70", "run.duration=0.14 s"}),
         measurable_in);
     const Plan plan = make_plan(scene);
-    const std::filesystem::path half =
-        std::filesystem::temp_directory_path() / fmt::format("half{}.grs", getpid());
+    const test::TemporaryFolder folder;
+    const std::filesystem::path half = folder / "half.grs";
     std::vector<std::vector<double>> rows;
     double left = 0, flowed = 0, last = 0;
     const auto go_on = [&](Simulation& run, bool save) {
@@ -455,7 +453,6 @@ TEST(Outlet, WhatFlowsOutIsKnownWhileAFeedGivesGrains) {
     for (std::size_t k = 0; k < later.size(); ++k)
         for (std::size_t c = 0; c < later[k].size(); ++c)
             EXPECT_TRUE(later[k][c] == rows[18 + k][c] || std::isnan(later[k][c])) << k << " " << c;
-    std::filesystem::remove(half);
 }
 
 // The energy balances term by term, also if an outlet opens below a bed at rest.

@@ -9,8 +9,8 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/surroundings.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
