@@ -5,10 +5,12 @@
 #include <random>
 
 #include "tests/foreign/dump_files.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using testing::HasSubstr;
 
 // Bytes that do not pack to almost nothing, so that packed pieces have ends.
@@ -107,8 +109,7 @@ TEST(PackedBytes, OtherPackingsAreRefusedByName) {
                                          "7zXZ\0abc",
                                          9)),
               ": packed with xz, which is not read; unpack it first: xz -d a.x");
-    EXPECT_THAT(complaint("BZh91AY&SYabcdef"),
-                HasSubstr("packed with bzip2, which is not read; unpack it first: bzip2"));
+    EXPECT_THAT(complaint("BZh91AY&SYabcdef"), tells({"bzip2", "not read", "unpack"}));
     EXPECT_THAT(complaint(std::string_view("]\0\0\x80\0\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF\0abc", 17)),
                 HasSubstr("packed with lzma"));
     EXPECT_THAT(complaint(std::string_view("PK\x03\x04\0\0\0\0", 8)), HasSubstr("packed with zip"));
@@ -123,7 +124,7 @@ TEST(PackedBytes, OnlyOrdinaryFiles) {
     EXPECT_THAT(complaint_about(pipe, [&] { open_bytes(pipe); }), HasSubstr("is a pipe"));
     const auto none = folder.path() / "none";
     EXPECT_THAT(complaint_about(none, [&] { unpacked_head(none); }),
-                HasSubstr("cannot be opened: No such file"));
+                tells({"cannot be opened", "No such file"}));
 }
 
 // A small file unpacks to many bytes.

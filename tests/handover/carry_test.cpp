@@ -10,10 +10,12 @@
 #include "engine/handover/carry.hpp"
 #include "engine/handover/decks.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using testing::HasSubstr;
 
 const std::string head = R"(
@@ -111,8 +113,7 @@ TEST(Carry, RefusalsNameTheOptionOfTheVerbInUse) {
     EXPECT_THAT(text, HasSubstr("for); use --engine liggghts"));
     EXPECT_THAT(text, testing::Not(HasSubstr("--to")));
     request.edinburgh = true;
-    EXPECT_THAT(refusals(law + head, request),
-                HasSubstr("--law edinburgh: is a law of LIGGGHTS; use --engine "));
+    EXPECT_THAT(refusals(law + head, request), tells({"--law edinburgh", "LIGGGHTS", "--engine"}));
     request.edinburgh = false;
     request.packs_above = 10;
     EXPECT_THAT(refusals("[contact]\nlaw = \"hertz\"\n" + head, request),

@@ -11,9 +11,12 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
+
+using test::tells;
 
 const std::string later_text = wedge_text + R"([[drive.stage]]
 from = "0.5 s"
@@ -76,7 +79,7 @@ from = "1.2 s"
         read_text(late, {{"run.duration=1 s", "--duration"}});
         FAIL() << "a species without grains";
     } catch (const UserError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("'from' is 1.1 s, but the run ends at 1 s"));
+        EXPECT_THAT(error.what(), tells({"'from'", "1.1 s", "ends at 1 s"}));
     }
 }
 

@@ -10,10 +10,12 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -42,23 +44,18 @@ TEST(Slips, OfUnits) {
               "--set species.small.density: a density of 7.8 kg/m3 is less than foam has; a number without a "
               "unit is in kg/m3: did you mean \"7.8 g/cm3\"?");
     EXPECT_THAT(warnings({"species.small.density=7800000"}),
-                HasSubstr("a density of 7.8e+06 kg/m3 is more than "
-                          "any solid has; a number without a unit "
-                          "is in kg/m3\n"));
-    EXPECT_THAT(warnings({"species.small.density=2.5e6"}), HasSubstr("is more than any solid has"));
-    EXPECT_THAT(warnings({"species.small.mass=0.16 kg"}), HasSubstr("this mass makes a density of"));
-    EXPECT_THAT(warnings({"species.small.diameter=5 µm"}),
-                HasSubstr("grains of 5e-06 m stick to each other"));
+                tells({"7.8e+06 kg/m3", "any solid", "in kg/m3"}));
+    EXPECT_THAT(warnings({"species.small.density=2.5e6"}), HasSubstr("more than any solid"));
+    EXPECT_THAT(warnings({"species.small.mass=0.16 kg"}), tells({"mass", "density"}));
+    EXPECT_THAT(warnings({"species.small.diameter=5 µm"}), tells({"5e-06 m", "stick"}));
     const Assignments in_mm{"species.small.diameter=5",  "species.big.diameter=10",
                             "container.slant_height=70", "container.half_width=55",
                             "container.depth=45",        "container.height=180"};
     EXPECT_THAT(warnings(in_mm),
                 AllOf(HasSubstr("did you mean \"5 mm\"?"), HasSubstr("did you mean \"10 mm\"?"),
                       HasSubstr("did you mean \"180 mm\"?")));
-    EXPECT_THAT(warnings({"gravity=981"}),
-                HasSubstr("--set gravity: a gravity of 981 m/s2 is 100 times that of "
-                          "the Earth; a number without a unit is in m/s2: did you "
-                          "mean \"981 cm/s2\"?"));
+    EXPECT_THAT(warnings({"gravity=981"}), tells({"--set gravity", "981 m/s2", "100 times", "Earth",
+                                                  "without a unit", "\"981 cm/s2\"?"}));
 }
 
 TEST(Slips, OfTheDrive) {
@@ -71,7 +68,7 @@ TEST(Slips, OfTheDrive) {
         warnings({"drive.frequency=0.1"}),
         AllOf(HasSubstr(fmt::format("an amplitude of {:.4g} m is more than the height of the container",
                                     3 * 10 / (omega * omega))),
-              HasSubstr("one period of 10 s is longer than the run of 2 s; raise the frequency")));
+              tells({"10 s", "longer", "2 s", "raise the frequency"})));
     EXPECT_THAT(warnings({"drive.frequency=20 kHz"}), HasSubstr("did you mean \"20 Hz\"?"));
     const double shaken = 2 * std::numbers::pi * 20;
     EXPECT_THAT(warnings({"drive.amplitude=10 cm"}),
@@ -85,8 +82,7 @@ TEST(Slips, OfFriction) {
         "--set contact.friction: a friction of 50 is more than materials have (glass 0.2 to 0.5, rubber "
         "about 1); did you mean 0.5? inf is for grains that never slip\n");
     EXPECT_EQ(warnings({"contact.friction=inf"}), "");
-    EXPECT_THAT(warnings({"contact.rolling_friction=10"}),
-                HasSubstr("a rolling friction of 10 is more than"));
+    EXPECT_THAT(warnings({"contact.rolling_friction=10"}), tells({"rolling friction", "10", "more than"}));
 }
 
 TEST(Slips, OfGravityAndTheFloor) {

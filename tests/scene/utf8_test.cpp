@@ -8,10 +8,12 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using testing::HasSubstr;
 
 std::string complaint(const std::string& text, const Assignments& sets, const char* file = "test.toml") {
@@ -80,7 +82,7 @@ TEST(Utf8, TextThatIsNotIsRefusedAtTheStartAndTheByteNamed) {
               "\"Gr\\xf6sse.toml\" is not UTF-8 at byte 3, 0xf6; rename the file");
     EXPECT_THAT(complaint(wedge_text + "[start]\nmethod = \"file\"\nfile = \"final.csv\"\n", {},
                           "/nowhere/Gr\xf6sse/test.toml"),
-                HasSubstr("'file' lies at \"/nowhere/Gr\\xf6sse/final.csv\" is not UTF-8"));
+                tells({"'file'", "/nowhere/Gr\\xf6sse/final.csv", "not UTF-8"}));
 }
 
 // `render` reads the run's own scene.toml.

@@ -6,12 +6,14 @@
 #include <unistd.h>
 
 #include "engine/base/error.hpp"
+#include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
 namespace fs = std::filesystem;
+using test::tells;
 using test::TemporaryFolder, test::text_of, test::write_text;
 using testing::HasSubstr;
 
@@ -156,7 +158,7 @@ TEST(RunFolder, AFolderInUseIsRefusedAndItsHolderNamed) {
             const std::string message = message_of({"wedge", "output", run, force});
             EXPECT_THAT(message, HasSubstr("--out " + run.string() + ": is in use by process " +
                                            std::to_string(::getpid()) + ", which began 2"));
-            EXPECT_THAT(message, HasSubstr(" (grainreel movie wedge.toml); wait until that ends"));
+            EXPECT_THAT(message, tells({"(grainreel movie wedge.toml)", "wait"}));
         }
         EXPECT_EQ(entries(here.path()), 1u);
         EXPECT_EQ(text_of(run / "run.json"), "{}");

@@ -13,11 +13,13 @@
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/mesh/mesh_files.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using test::TemporaryFolder;
 using testing::Contains;
 using testing::HasSubstr;
@@ -342,7 +344,7 @@ high = [1, 1, 0]
 duration = "0.12 s"
 step = 1e-5
 )");
-    EXPECT_THAT(warning_of(scene), HasSubstr(": 1 of 2 grains (50 %) lie in an exit"));
+    EXPECT_THAT(warning_of(scene), tells({": 1 of 2 grains", "50 %", "in an exit"}));
     const Start start = start_of(scene, 1);
     ASSERT_EQ(start.left.size(), 1u);
     EXPECT_EQ(start.left[0].id, 1);
