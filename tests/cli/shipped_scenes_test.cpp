@@ -88,14 +88,14 @@ TEST(NewScene, OverwritesNothing) {
     std::ofstream(folder.path() / "gravel.toml") << "precious";
     const Ended ended = run_program({"new"}, {.folder = folder.path()});
     EXPECT_EQ(ended.status, 2);
-    EXPECT_EQ(ended.err, "error: gravel.toml: is there already; choose another name\n");
+    EXPECT_THAT(ended.err, tells_only({"error: gravel.toml", "already", "another name"}));
     EXPECT_EQ(text_of(folder.path() / "gravel.toml"), "precious");
     const Ended unknown = run_program({"new", "x", "--from", "wedge"}, {.folder = folder.path()});
     EXPECT_EQ(unknown.status, 2);
     EXPECT_THAT(unknown.err, tells({"--from", "no single scene", "'wedge'"}));
     EXPECT_FALSE(fs::exists(folder.path() / "x.toml"));
-    EXPECT_EQ(run_program({"new", "no/such"}, {.folder = folder.path()}).err,
-              "error: no: there is no such folder; make it first\n");
+    EXPECT_THAT(run_program({"new", "no/such"}, {.folder = folder.path()}).err,
+                tells_only({"error: no: ", "no such folder", "make it"}));
 }
 
 TEST(Doctor, FindsWhatFilmsNeed) {

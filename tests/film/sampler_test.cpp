@@ -16,6 +16,7 @@ namespace grainreel {
 namespace {
 
 using test::tells;
+using test::tells_only;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -229,12 +230,12 @@ std::string complaint_of(const Film& film, const Clock& clock, std::int64_t step
 TEST(FilmSchedule, NoMoreIsMadeThanAFilmMayHave) {
     const Clock clock = clock_of(1e8, 8);
     const std::int64_t steps = 800'000'000'000'000;
-    EXPECT_EQ(complaint_of(film_of({locked({}, 1, 0)}), clock, steps),
-              "a.toml:4:1: the film would have 1e+14 frames, and the most are 10000000; raise "
-              "'film.segment[0].every' or shorten 'run.duration'");
-    EXPECT_EQ(complaint_of(film_of({motion({}, 1e-320)}), clock, steps),
-              "a.toml:5:2: the film would have 8e+14 frames, and the most are 10000000; raise "
-              "'film.segment[0].playback', now 1e-320, or shorten 'run.duration'");
+    EXPECT_THAT(
+        complaint_of(film_of({locked({}, 1, 0)}), clock, steps),
+        tells_only({"a.toml:4:1", "1e+14 frames", "10000000", "'film.segment[0].every'", "'run.duration'"}));
+    EXPECT_THAT(complaint_of(film_of({motion({}, 1e-320)}), clock, steps),
+                tells_only({"a.toml:5:2", "8e+14 frames", "10000000", "'film.segment[0].playback'", "1e-320",
+                            "'run.duration'"}));
 }
 
 TEST(FilmSchedule, NoMoreMomentsAreKeptThanAFilmMayHave) {
@@ -258,10 +259,8 @@ TEST(FilmSchedule, ALockWithoutADriveIsTheUsersMistake) {
         schedule_of(film_of({motion(1.0, 1), locked({}, 1, 0)}), Clock{1e-4, 0, 0}, 100'000);
         FAIL() << "no error";
     } catch (const UserError& error) {
-        EXPECT_STREQ(
-            error.what(),
-            "a.toml:1:1: film segment 2 is locked to the drive's phase, but nothing is driven; give the "
-            "scene a drive, or make it a motion segment");
+        EXPECT_THAT(error.what(), tells_only({"a.toml:1:1", "segment 2", "phase", "nothing is driven",
+                                              "a drive", "motion segment"}));
     }
 }
 

@@ -11,6 +11,7 @@ namespace grainreel {
 namespace {
 
 using test::tells;
+using test::tells_only;
 using testing::HasSubstr;
 
 // Bytes that do not pack to almost nothing, so that packed pieces have ends.
@@ -105,10 +106,10 @@ TEST(PackedBytes, OtherPackingsAreRefusedByName) {
         const auto file = folder.write("a.x", bytes);
         return complaint_about(file, [&] { unpacked_head(file); });
     };
-    EXPECT_EQ(complaint(std::string_view("\xFD"
-                                         "7zXZ\0abc",
-                                         9)),
-              ": packed with xz, which is not read; unpack it first: xz -d a.x");
+    EXPECT_THAT(complaint(std::string_view("\xFD"
+                                           "7zXZ\0abc",
+                                           9)),
+                tells_only({": packed with xz", "not read", "xz -d a.x"}));
     EXPECT_THAT(complaint("BZh91AY&SYabcdef"), tells({"bzip2", "not read", "unpack"}));
     EXPECT_THAT(complaint(std::string_view("]\0\0\x80\0\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF\0abc", 17)),
                 HasSubstr("packed with lzma"));

@@ -21,6 +21,7 @@ namespace {
 
 using std::numbers::pi;
 using test::tells;
+using test::tells_only;
 using testing::HasSubstr;
 
 double sphere_mass(double diameter, double density) {
@@ -339,18 +340,13 @@ TEST(PlanWarnings, WordForWord) {
         sets.push_back(set);
         return warnings(wedge_text, sets);
     };
-    EXPECT_EQ(of("drive.g_level=0.9"),
-              "test.toml:23:2: gamma is 0.9, below 1: the bed stays on the floor and nothing will move; "
-              "raise g_level or "
-              "amplitude\n");
-    EXPECT_EQ(of("drive.ramp=50"),
-              "--set drive.ramp: the drive grows over 2.5 s, longer than the run of 2 s, and never reaches "
-              "its amplitude; "
-              "lengthen the run or shorten the ramp\n");
-    EXPECT_EQ(
+    EXPECT_THAT(of("drive.g_level=0.9"),
+                tells_only({"test.toml:23:2", "gamma is 0.9", "below 1", "raise g_level"}));
+    EXPECT_THAT(of("drive.ramp=50"),
+                tells_only({"--set drive.ramp", "2.5 s", "run of 2 s", "shorten the ramp"}));
+    EXPECT_THAT(
         warnings(wedge_text, {"species.small.count=1000", "contact.restitution=1", "contact.friction=0"}),
-        "test.toml:13:2: restitution 1 loses no energy, so the drive heats the grains without limit; "
-        "lower it\n");
+        tells_only({"test.toml:13:2", "restitution 1", "no energy", "lower it"}));
     EXPECT_THAT(of("run.step=1e-4"), tells({" s", "above", "stable limit"}));
     EXPECT_THAT(of("run.step=3e-5"), tells({"12 are wanted", "restitution 0.8", "shorten the step"}));
     EXPECT_THAT(of("contact.stiffness=100"), tells({"diameter", "most contacts", "0.05"}));
@@ -371,10 +367,8 @@ TEST(PlanWarnings, OfSilentFailures) {
                     "take a ramp of 3 periods, or a phase of 90 deg\n",
                     3 * 10 / (2 * pi * 20)));
     EXPECT_EQ(of({"drive.ramp=0", "drive.phase=90 deg"}), "");
-    EXPECT_EQ(
-        of({"contact.arms=radius"}),
-        "--set contact.arms: the radius as lever arm does not keep angular momentum, and the slip of "
-        "pairs that swing to and fro adds up (ratcheting); leave it out, unless it is what you study\n");
+    EXPECT_THAT(of({"contact.arms=radius"}),
+                tells_only({"--set contact.arms", "lever arm", "ratcheting", "leave it out"}));
     EXPECT_EQ(of({"contact.arms=radius", "contact.friction=0"}).find("ratcheting"), std::string::npos);
 
     const Plan soft = make_plan(read_text(wedge_text, {"contact.stiffness=20"}));

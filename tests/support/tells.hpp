@@ -38,4 +38,14 @@ inline auto tells(std::vector<std::string> words) {
     return TellsInOrder(std::move(words));
 }
 
+MATCHER(IsOneLine, negation ? "has several lines" : "is one line") {
+    const std::string text(arg);
+    return std::count(text.begin(), text.end(), '\n') == (text.ends_with('\n') ? 1 : 0);
+}
+
+// The same, and the text says nothing else.
+inline auto tells_only(std::vector<std::string> words) {
+    return testing::AllOf(IsOneLine(), TellsInOrder(std::move(words)));
+}
+
 }  // namespace grainreel::test

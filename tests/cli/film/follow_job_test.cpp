@@ -338,10 +338,8 @@ TEST_F(FollowedJob, TheEnginesErrorIsTheLastThatRunShSays) {
     const std::string command = fmt::format(
         "cd '{}' && PATH=\"$PWD/bin:$PATH\" ENGINE=true sh job/run.sh 2> said", here.path().string());
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
-    EXPECT_EQ(text_of(here / "said"),
-              "run.sh: LAMMPS ended with 1: in.lammps:3: ERROR: Unrecognized (force.cpp:278) (at `pair_style "
-              "nonsense "
-              "3`); all that it printed is in out.lammps\n");
+    EXPECT_THAT(text_of(here / "said"),
+                tells_only({"run.sh", "LAMMPS ended", "in.lammps:3", "pair_style nonsense 3", "out.lammps"}));
     EXPECT_THAT(text_of(here / "job/during.status"),
                 testing::MatchesRegex("running\njob .* [0-9]+ [0-9]+ start\n"));
     EXPECT_THAT(text_of(here / "job/job.status"), testing::MatchesRegex("1\njob .* [0-9]+ [0-9]+ start\n"));

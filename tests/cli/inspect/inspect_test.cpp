@@ -110,20 +110,25 @@ TEST(Expressions, CountTheGrainsOfALattice) {
 
 TEST(Expressions, TellWhatIsWrongAndWhere) {
     const Bed bed;
-    EXPECT_EQ(bed.mistake("hight > 2 cm"), "character 1: 'hight' is not known; did you mean 'height'?");
-    EXPECT_EQ(bed.mistake("height > 2 s"), "character 1: a length and a time do not go together");
-    EXPECT_EQ(bed.mistake("height > 2"),
-              "character 1: a length and a plain number do not go together; write a unit after the number");
-    EXPECT_EQ(bed.mistake("spin > 3 Hz"),
-              "character 1: an angular velocity and a frequency do not go together");
-    EXPECT_EQ(bed.mistake("height > 2 cm and"), "character 18: something is missing at the end");
-    EXPECT_EQ(bed.mistake("height + mass > 2 cm"), "character 1: a length and a mass do not go together");
+    EXPECT_THAT(bed.mistake("hight > 2 cm"),
+                tells_only({"character 1: ", "'hight'", "not known", "'height'?"}));
+    EXPECT_THAT(bed.mistake("height > 2 s"),
+                tells_only({"character 1: ", "a length", "a time", "not go together"}));
+    EXPECT_THAT(bed.mistake("height > 2"),
+                tells_only({"character 1: ", "a length", "a plain number", "write a unit"}));
+    EXPECT_THAT(bed.mistake("spin > 3 Hz"),
+                tells_only({"character 1: ", "angular velocity", "frequency", "not go together"}));
+    EXPECT_THAT(bed.mistake("height > 2 cm and"), tells_only({"character 18: ", "missing", "end"}));
+    EXPECT_THAT(bed.mistake("height + mass > 2 cm"),
+                tells_only({"character 1: ", "a length", "a mass", "not go together"}));
     EXPECT_EQ(bed.mistake("(height > 2 cm"), "character 15: a ')' is missing");
-    EXPECT_EQ(bed.mistake("height > 2 cm) or id = 1"), "character 14: ') or id = 1' is not expected here");
+    EXPECT_THAT(bed.mistake("height > 2 cm) or id = 1"),
+                tells_only({"character 14: ", "') or id = 1'", "not expected"}));
     EXPECT_EQ(bed.mistake("height > 2 furlongz"), "character 12: 'furlongz' is no unit");
-    EXPECT_EQ(bed.mistake("species > small"),
-              "character 1: species have no order; compare them with == or !=");
-    EXPECT_EQ(bed.mistake("species == 1"), "character 1: a species and a plain number do not go together");
+    EXPECT_THAT(bed.mistake("species > small"),
+                tells_only({"character 1: ", "species", "no order", "== or !="}));
+    EXPECT_THAT(bed.mistake("species == 1"),
+                tells_only({"character 1: ", "a species", "a plain number", "not go together"}));
     EXPECT_THAT(bed.mistake("height"), tells({"a value", "no condition"}));
     EXPECT_THAT(bed.mistake(" "), HasSubstr("nothing is asked"));
     EXPECT_THAT(bed.mistake("contacts > 3"), HasSubstr("output.contacts = true"));

@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::tells;
+using test::tells_only;
 using test::TemporaryFolder, test::text_of, test::write_text;
 using testing::HasSubstr;
 
@@ -206,8 +207,8 @@ TEST(RunFolder, KnowsWhenItIsGone) {
 }
 
 TEST(RunFolder, AnEmptyNameIsAUserError) {
-    EXPECT_EQ(message_of({"wedge", "output", "", false}),
-              "--out: the name is empty; name a folder, or leave out --out");
+    EXPECT_THAT(message_of({"wedge", "output", "", false}),
+                tells_only({"--out", "name is empty", "leave out --out"}));
 }
 
 TEST(RunFolder, DiscardPutsTheOldRunBack) {
