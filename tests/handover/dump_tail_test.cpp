@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -98,19 +99,11 @@ Frame with(std::int64_t step, const std::vector<std::int32_t>& ids, double z) {
     return frame;
 }
 
-const char* const kBox = R"([[species]]
-name = "beads"
-count = 3
-diameter = "4 mm"
-density = "2.5 g/cm3"
-[contact]
-restitution = 0.6
-[container]
-shape = "box"
-width = "40 mm"
-depth = "30 mm"
-height = "50 mm"
-)";
+const std::string kBox = SmallScene()
+                             .beads(3, "beads", "4 mm", "2.5 g/cm3")
+                             .more("[contact]\nrestitution = 0.6\n")
+                             .box("40 mm", "30 mm", "50 mm")
+                             .text();
 
 TEST(GrainCount, ALostGrainIsNamedWithItsStep) {
     const Scene scene = read_scene_text(kBox, "box.toml");

@@ -11,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel::test {
@@ -22,27 +23,15 @@ using Pairs = std::set<std::pair<std::int32_t, std::int32_t>>;
 constexpr double kRadius = 0.002;  // m
 
 std::string box(const std::string& more = "") {
-    return R"(
-[[species]]
-name = "ball"
-count = 40
-diameter = "4 mm"
-density = 2500
-[contact]
-law = "spring-dashpot"
-friction_law = "linear-spring"
-stiffness = 1000
-restitution = 0.8
-friction = 0.3
-[container]
-shape = "box"
-width = "40 mm"
-depth = "20 mm"
-height = "100 mm"
-[run]
-duration = "0.4 s"
-step = 2e-5
-)" + more;
+    return SmallScene()
+               .beads(40, "ball")
+               .more("[contact]\nlaw = \"spring-dashpot\"\nfriction_law = \"linear-spring\"\n")
+               .more("stiffness = 1000\nrestitution = 0.8\nfriction = 0.3\n")
+               .box("40 mm", "20 mm", "100 mm")
+               .lasts("0.4 s")
+               .more("step = 2e-5\n")
+               .text() +
+           more;
 }
 
 class ReturnedHealths : public testing::Test {

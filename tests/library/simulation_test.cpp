@@ -15,6 +15,7 @@
 #include <grainreel/run.hpp>
 #include <grainreel/simulation.hpp>
 
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -29,24 +30,14 @@ using testing::StartsWith;
 
 // A box of 20 mm x 15 mm x 40 mm; "more" ends in further tables.
 std::string text_of(const std::string& more = "") {
-    return R"(
-    [[species]]
-    name = "small"
-    count = 8
-    diameter = "3 mm"
-    density = "2.5 g/cm3"
-    [container]
-    shape = "box"
-    width = "20 mm"
-    depth = "15 mm"
-    height = "40 mm"
-    [drive]
-    frequency = "30 Hz"
-    g_level = 2
-    [run]
-    duration = "0.05 s"
-    accuracy = "draft"
-)" + more;
+    return grainreel::test::SmallScene()
+               .beads(8, "small", "3 mm", "2.5 g/cm3")
+               .box("20 mm", "15 mm", "40 mm")
+               .shaken("30 Hz", "2")
+               .lasts("0.05 s")
+               .more("accuracy = \"draft\"\n")
+               .text() +
+           more;
 }
 
 gr::Scene scene(const std::string& more = "", const std::vector<std::string>& settings = {}) {

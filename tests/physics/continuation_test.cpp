@@ -16,8 +16,8 @@
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/restart.hpp"
-#include "tests/cli/small_scene.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -15,6 +15,7 @@
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {
@@ -253,23 +254,13 @@ TEST(StabilityHealth, StopsAColumnWhoseStepIsTooLong) {
                 AllOf(HasSubstr("step "), HasSubstr("(ball) at ("), HasSubstr("take a smaller run.step")));
 }
 
-const std::string box_of_grains = R"([[species]]
-name = "ball"
-count = 80
-diameter = "4 mm"
-density = 2500
-[contact]
-restitution = 0.9
-friction = 0.4
-stiffness = 2000
-[container]
-shape = "box"
-width = "20 mm"
-depth = "20 mm"
-height = "60 mm"
-[run]
-duration = 0.2
-)";
+const std::string box_of_grains = test::SmallScene()
+                                      .beads(80, "ball")
+                                      .contacts("0.9", "0.4")
+                                      .more("stiffness = 2000\n")
+                                      .box("20 mm", "20 mm", "60 mm")
+                                      .lasts("0.2")
+                                      .text();
 
 // A loose bed with losses stays stable a little longer than a crystal's 0.7 sqrt(m/K).
 TEST(StabilityHealth, StopsABedWhoseStepIsTooLong) {

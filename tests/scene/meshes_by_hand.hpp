@@ -11,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
@@ -85,46 +86,24 @@ class MeshScenes : public test::TemporaryFolder {
 };
 
 // A ball above a plate from a file, in the smallest scene that has a mesh.
-inline const std::string ball_on_plate = R"([[species]]
-name = "ball"
-diameter = "10 mm"
-density = 2500
-[contact]
-restitution = 0.8
-friction = 0.3
-[container]
-shape = "none"
-[[mesh]]
-name = "plate"
-file = "plate.stl"
-[[grain]]
-position = [0, 0, "7 mm"]
-[run]
-duration = "0.2 s"
-)";
+inline const std::string ball_on_plate = test::SmallScene()
+                                             .beads(0, "ball", "10 mm")
+                                             .contacts("0.8", "0.3")
+                                             .empty_space()
+                                             .more("[[mesh]]\nname = \"plate\"\nfile = \"plate.stl\"\n")
+                                             .more("[[grain]]\nposition = [0, 0, \"7 mm\"]\n")
+                                             .lasts("0.2 s")
+                                             .text();
 
 // Grains in a vessel from a file.
-inline const std::string in_vessel = R"([[species]]
-name = "small"
-count = 10
-diameter = "5 mm"
-density = 2500
-[[species]]
-name = "big"
-count = 2
-diameter = "10 mm"
-density = 2500
-[contact]
-restitution = 0.8
-friction = 0.3
-[container]
-shape = "mesh"
-mesh = "tank"
-[[mesh]]
-name = "tank"
-file = "tank.stl"
-[run]
-duration = "0.2 s"
-)";
+inline const std::string in_vessel =
+    test::SmallScene()
+        .beads(10, "small", "5 mm")
+        .beads(2, "big", "10 mm")
+        .contacts("0.8", "0.3")
+        .more("[container]\nshape = \"mesh\"\nmesh = \"tank\"\n[[mesh]]\nname = \"tank\"\n")
+        .more("file = \"tank.stl\"\n")
+        .lasts("0.2 s")
+        .text();
 
 }  // namespace grainreel

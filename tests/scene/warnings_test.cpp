@@ -12,6 +12,7 @@
 #include "engine/plan/plan_parts.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {
@@ -28,29 +29,14 @@ std::string warnings(const std::string& text, Assignments sets = {}) {
 }
 
 // A bed of 1,500 beads that are shaken, and one intruder of three diameters.
-const std::string nut_text = R"([[species]]
-name = "bead"
-count = 1500
-diameter = "3 mm"
-density = 2500
-[[species]]
-name = "nut"
-count = 1
-diameter = "9 mm"
-density = 2500
-[contact]
-restitution = 0.8
-friction = 0.3
-[container]
-shape = "cylinder"
-diameter = "45 mm"
-height = "100 mm"
-[drive]
-frequency = "20 Hz"
-g_level = 3
-[run]
-duration = "2 s"
-)";
+const std::string nut_text = test::SmallScene()
+                                 .beads(1500, "bead", "3 mm")
+                                 .beads(1, "nut", "9 mm")
+                                 .contacts("0.8", "0.3")
+                                 .cylinder("45 mm", "100 mm")
+                                 .shaken("20 Hz", "3")
+                                 .lasts("2 s")
+                                 .text();
 
 TEST(Warnings, OfASoftBedIsNotSetOffByOneIntruder) {
     const auto soft = HasSubstr("behaves like a soft body");

@@ -12,6 +12,7 @@
 
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -26,34 +27,17 @@ using testing::Not;
 using Words = std::vector<std::string>;
 
 // 21 pictures, one each 100 steps.
-constexpr const char* falling = R"(title = "A ball"
-[[species]]
-name = "ball"
-diameter = "4 mm"
-density = 2500
-[contact]
-law = "spring-dashpot"
-friction_law = "linear-spring"
-stiffness = 1000
-restitution = 0.7
-[container]
-shape = "box"
-width = "20 mm"
-depth = "20 mm"
-height = "400 mm"
-[start]
-method = "grains"
-[[grain]]
-position = [0, 0, 0.3]
-[run]
-duration = "0.2 s"
-step = 1e-4
-[film]
-size = "160x120"
-rate = 25
-[[film.segment]]
-playback = 0.25
-)";
+const std::string falling =
+    SmallScene("title = \"A ball\"\n")
+        .beads(0, "ball")
+        .more("[contact]\nlaw = \"spring-dashpot\"\nfriction_law = \"linear-spring\"\n")
+        .more("stiffness = 1000\nrestitution = 0.7\n")
+        .box("20 mm", "20 mm", "400 mm")
+        .more("[start]\nmethod = \"grains\"\n[[grain]]\nposition = [0, 0, 0.3]\n")
+        .lasts("0.2 s")
+        .more("step = 1e-4\n[film]\nsize = \"160x120\"\nrate = 25\n")
+        .more("[[film.segment]]\nplayback = 0.25\n")
+        .text();
 
 constexpr int kPictures = 21, kStepsAPicture = 100;
 

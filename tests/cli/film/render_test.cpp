@@ -10,7 +10,7 @@
 #include "render/film/sources/recorded_scene.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 

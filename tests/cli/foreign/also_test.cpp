@@ -11,7 +11,7 @@
 #include "engine/scene/output.hpp"
 #include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 

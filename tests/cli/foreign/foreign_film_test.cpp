@@ -13,6 +13,7 @@
 #include "engine/state/pose.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/foreign/foreign_bed.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {
@@ -120,23 +121,13 @@ TEST_F(ForeignFilm, AWallIsWhereItsFilesHaveIt) {
 
 // The container of a scene shakes by 1 mm at 25 Hz; the four frames lie a quarter of a period apart.
 TEST_F(ForeignFilm, AContainerOfOursMovesByItsDrive) {
-    write_text(here / "box.toml", R"([[species]]
-name = "any"
-count = 1
-diameter = "6 mm"
-density = "2.5 g/cm3"
-[container]
-shape = "box"
-width = "60 mm"
-depth = "60 mm"
-height = "60 mm"
-[drive]
-frequency = "25 Hz"
-amplitude = "1 mm"
-ramp = 0
-[run]
-duration = "1 s"
-)");
+    write_text(here / "box.toml",
+               SmallScene()
+                   .beads(1, "any", "6 mm", "2.5 g/cm3")
+                   .box("60 mm", "60 mm", "60 mm")
+                   .more("[drive]\nfrequency = \"25 Hz\"\namplitude = \"1 mm\"\nramp = 0\n")
+                   .lasts("1 s")
+                   .text());
     const Ended ended = timed({"render", "bed.dump", "--container", "box.toml", "--at", "0.01", "--size",
                                "160x120", "--out", "shaken.png"});
     ASSERT_EQ(ended.status, 0) << ended.err;

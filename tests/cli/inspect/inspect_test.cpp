@@ -19,7 +19,7 @@
 #include "engine/questions/grain_columns.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -32,28 +32,13 @@ using testing::HasSubstr;
 constexpr double d = 0.004;  // m, diameter
 
 FilmedScene two_species() {
-    return read_filmed_scene_text(R"(
-[[species]]
-name = "small"
-count = 63
-diameter = "4 mm"
-density = "2.5 g/cm3"
-[[species]]
-name = "big beads"
-count = 1
-diameter = "4 mm"
-density = "2.5 g/cm3"
-[container]
-shape = "box"
-width = "16 mm"
-depth = "16 mm"
-height = "40 mm"
-[drive]
-frequency = "20 Hz"
-g_level = 2
-[run]
-duration = "1 s"
-)",
+    return read_filmed_scene_text(SmallScene()
+                                      .beads(63, "small", "4 mm", "2.5 g/cm3")
+                                      .beads(1, "big beads", "4 mm", "2.5 g/cm3")
+                                      .box("16 mm", "16 mm", "40 mm")
+                                      .shaken("20 Hz", "2")
+                                      .lasts("1 s")
+                                      .text(),
                                   "two.toml");
 }
 

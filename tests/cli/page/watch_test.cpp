@@ -17,7 +17,7 @@
 #include "render/page/live/watch.hpp"
 #include "tests/cli/page/http.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 

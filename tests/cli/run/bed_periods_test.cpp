@@ -10,6 +10,7 @@
 
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
@@ -118,34 +119,16 @@ TEST(BedPeriods, AreThoseOfTheSceneWhereItSaysSo) {
     EXPECT_THAT(one.news().at(0), HasSubstr("locked frames jump"));
 }
 
-const char* bed_scene = R"(
-[[species]]
-name = "grain"
-count = 40
-diameter = "4 mm"
-density = 2500
-[contact]
-restitution = 0.5
-friction = 0.4
-[container]
-shape = "box"
-width = "15 mm"
-depth = "15 mm"
-height = "60 mm"
-[drive]
-frequency = "25 Hz"
-g_level = 4.5
-[run]
-duration = "0.8 s"
-accuracy = "draft"
-[film]
-size = "320x240"
-[film.colour]
-by = "rise"
-[[film.segment]]
-kind = "locked"
-average = 1
-)";
+const std::string bed_scene = SmallScene()
+                                  .beads(40, "grain")
+                                  .contacts("0.5", "0.4")
+                                  .box("15 mm", "15 mm", "60 mm")
+                                  .shaken("25 Hz", "4.5")
+                                  .lasts("0.8 s")
+                                  .more("accuracy = \"draft\"\n[film]\nsize = \"320x240\"\n")
+                                  .more("[film.colour]\nby = \"rise\"\n")
+                                  .more("[[film.segment]]\nkind = \"locked\"\naverage = 1\n")
+                                  .text();
 
 class DoubledBed : public testing::Test {
   protected:

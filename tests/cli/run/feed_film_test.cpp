@@ -6,7 +6,7 @@
 
 #include "engine/files/trajectory/trajectory.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {

@@ -24,7 +24,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/small_disk.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 

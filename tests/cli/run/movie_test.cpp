@@ -14,7 +14,7 @@
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -10,7 +10,7 @@
 #include "engine/base/error.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {

@@ -12,7 +12,7 @@
 #include "render/film/codec/png.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {

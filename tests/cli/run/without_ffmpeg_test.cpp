@@ -15,7 +15,7 @@ extern "C" {
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {

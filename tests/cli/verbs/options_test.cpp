@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {

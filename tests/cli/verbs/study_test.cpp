@@ -14,7 +14,7 @@
 #include "engine/files/measures_csv.hpp"
 #include "render/app/study/study.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 

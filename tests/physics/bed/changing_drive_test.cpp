@@ -5,8 +5,8 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/restart.hpp"
-#include "tests/cli/small_scene.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {

@@ -10,8 +10,8 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/small_scene.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {

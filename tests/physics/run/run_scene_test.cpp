@@ -11,8 +11,8 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/folder/scene_folder_run.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/small_scene.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
