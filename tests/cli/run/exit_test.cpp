@@ -89,7 +89,7 @@ const std::string bed_in_exit = SmallScene()
                                     .text();
 
 // Three species that rain into a cylinder, with a feed and an outlet that opens at once.
-const char* const rain_in_exit = R"([[species]]
+const std::string rain_in_exit = R"([[species]]
 name = "aa"
 count = 6
 diameter = { min = "4.154 mm", max = "6.773 mm" }
@@ -178,7 +178,7 @@ TEST_F(ExitAtStart, EveryGrainIsInAFile) {
 }
 
 TEST_F(ExitAtStart, TheRunIsTheSameWhereverItWasStopped) {
-    for (const char* scene : {bed_in_exit, rain_in_exit}) {
+    for (const std::string& scene : {bed_in_exit, rain_in_exit}) {
         movie(scene, "whole", {"--force"});
         for (const char* threads : {"1", "2", "3"}) {
             movie(scene, "run", {"--force", "--threads", threads, "--duration", "0.05"});
