@@ -13,13 +13,16 @@ There the flaps are gone at once.
 Exit status: 0 within 2 degrees of that, 1 not.
 """
 import argparse
-import csv
 import json
 import math
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from rates import slope  # noqa: E402
+from runs import texts  # noqa: E402
 
 PUBLISHED, ALLOWED = 19.7, 2.0  # degrees
 DIAMETER, PLATE, GAP, HEIGHT = 0.01, 0.9, 0.05, 0.4  # m
@@ -109,11 +112,6 @@ write_dump all custom end.dump id x y z
 """
 
 
-def rows_of(file):
-    with open(file, newline="") as rows:
-        return list(csv.DictReader(rows))
-
-
 def highest(centres):
     """In bins of two diameters across the plate: place, and height of the highest centre above the plate."""
     bins = {}
@@ -126,9 +124,7 @@ def highest(centres):
 
 def angle(points):
     """Degrees, of the line of least squares."""
-    n, sy, sz = len(points), sum(y for y, _ in points), sum(z for _, z in points)
-    slope = (n * sum(y * z for y, z in points) - sy * sz) / (n * sum(y * y for y, _ in points) - sy * sy)
-    return math.degrees(math.atan(abs(slope)))
+    return math.degrees(math.atan(abs(slope(points))))
 
 
 def is_complete(run):
@@ -146,7 +142,7 @@ def run(options, name, *settings):
                                folder, *threads, *settings], stdout=subprocess.DEVNULL)
         if done.returncode:
             sys.exit(f"the run ended with {done.returncode}")
-    return rows_of(folder / "final.csv")
+    return texts(folder / "final.csv")
 
 
 def run_of_liggghts(options, depth):

@@ -28,8 +28,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "phenomena"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from fields import Fields  # noqa: E402
+from runs import numbers as table  # noqa: E402
 
 POISSON = 0.2
 # E (Pa) and density (kg/m3); restitution and friction of each pair.
@@ -93,11 +94,6 @@ def published_grains(file):
     with lzma.open(file, "rt") as lines:
         rows = [line.split() for line in lines]
     return [tuple(map(float, row)) for row in rows[1:] if len(row) == 4]
-
-
-def table(file):
-    with open(file, newline="") as lines:
-        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(lines)]
 
 
 # ---- Cases: input, curve, comparison --------------------------------------------------------------------------------

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/small_scene.hpp"
+
 namespace grainreel::test {
 
 // A square of side 0.2 m at z = 0 that faces up; the unit is m.
@@ -37,32 +39,7 @@ f 2 3 1
 f 1 2 2
 )";
 
-inline constexpr const char* mesh_scene_text = R"(title = "A ball on a plate from a file"
-[[species]]
-name = "ball"
-diameter = "10 mm"
-density = "2.5 g/cm3"
-[contact]
-restitution = 0.8
-friction = 0.3
-[container]
-shape = "none"
-[[mesh]]
-name = "plate"
-file = "plate.stl"
-[[mesh]]
-name = "paddle"
-file = "plate.obj"
-scale = 0.001
-position = [0, 0, "15 mm"]
-turn = { axis = [0, 0, 1], through = [0, 0, 0], rate = "30 rpm", from = "10 ms", over = "20 ms" }
-[[grain]]
-position = ["10 mm", "20 mm", "7 mm"]
-[run]
-duration = "0.1 s"
-[film]
-size = "160x120"
-)";
+inline const std::string mesh_scene_text = shared_scene("plate");
 
 inline std::filesystem::path write_mesh_scene(const std::filesystem::path& folder,
                                               const std::string& text = mesh_scene_text) {

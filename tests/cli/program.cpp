@@ -7,22 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <thread>
-
-#include "tests/cli/temporary_folder.hpp"
 
 namespace grainreel::test {
 
 namespace {
-
-std::filesystem::path stream_file(const char* name) {
-    static std::atomic<int> count = 0;
-    return std::filesystem::temp_directory_path() /
-           (std::string("grainreel-") + name + "-" + std::to_string(::getpid()) + "-" +
-            std::to_string(++count));
-}
 
 int exit_status(int status) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -62,8 +52,7 @@ void become_program(const std::vector<std::string>& words, const Program::Settin
 
 }  // namespace
 
-Program::Program(const std::vector<std::string>& words, const Setting& setting)
-    : out_(stream_file("out")), err_(stream_file("err")) {
+Program::Program(const std::vector<std::string>& words, const Setting& setting) {
     const char* out = setting.out.empty() ? out_.c_str() : setting.out.c_str();
     process_ = ::fork();
     if (process_ == 0) become_program(words, setting, out, err_.c_str());
@@ -74,8 +63,6 @@ Program::~Program() {
         send(SIGKILL);
         wait();
     }
-    std::filesystem::remove(out_);
-    std::filesystem::remove(err_);
 }
 
 void Program::send(int signal) const {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace grainreel::test {
 
 struct Ended {
@@ -44,7 +46,8 @@ class Program {
 
     pid_t process_ = -1;
     int status_ = -1;
-    std::filesystem::path out_, err_;  // its outputs go to files, because a pipe could fill up
+    const TemporaryFolder folder_;  // its outputs go to files, because a pipe could fill up
+    const std::filesystem::path out_ = folder_ / "out", err_ = folder_ / "err";
 };
 
 // Starts it and waits for its end.

@@ -11,7 +11,8 @@
 
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -65,8 +66,7 @@ TEST(ShippedScenes, AreReadByNameWhereThereIsNoSuchFile) {
     const TemporaryFolder folder;
     const Ended ended = run_program({"check", "gravle"}, {.folder = folder.path()});
     EXPECT_EQ(ended.status, 2);
-    EXPECT_THAT(ended.err,
-                HasSubstr("gravle: there is no such file; did you mean the shipped scene 'gravel'?"));
+    EXPECT_THAT(ended.err, tells({"gravle", "no such file", "'gravel'?"}));
 }
 
 TEST(NewScene, IsACopyThatCanBeRead) {
@@ -88,14 +88,14 @@ TEST(NewScene, OverwritesNothing) {
     std::ofstream(folder.path() / "gravel.toml") << "precious";
     const Ended ended = run_program({"new"}, {.folder = folder.path()});
     EXPECT_EQ(ended.status, 2);
-    EXPECT_EQ(ended.err, "error: gravel.toml: is there already; choose another name\n");
+    EXPECT_THAT(ended.err, tells_only({"error: gravel.toml", "already", "another name"}));
     EXPECT_EQ(text_of(folder.path() / "gravel.toml"), "precious");
     const Ended unknown = run_program({"new", "x", "--from", "wedge"}, {.folder = folder.path()});
     EXPECT_EQ(unknown.status, 2);
-    EXPECT_THAT(unknown.err, HasSubstr("--from: there is no single scene like 'wedge'; "));
+    EXPECT_THAT(unknown.err, tells({"--from", "no single scene", "'wedge'"}));
     EXPECT_FALSE(fs::exists(folder.path() / "x.toml"));
-    EXPECT_EQ(run_program({"new", "no/such"}, {.folder = folder.path()}).err,
-              "error: no: there is no such folder; make it first\n");
+    EXPECT_THAT(run_program({"new", "no/such"}, {.folder = folder.path()}).err,
+                tells_only({"error: no: ", "no such folder", "make it"}));
 }
 
 TEST(Doctor, FindsWhatFilmsNeed) {

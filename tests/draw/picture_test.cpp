@@ -22,6 +22,7 @@
 #include "render/picture/words/captions.hpp"
 #include "render/scene/film.hpp"
 #include "tests/draw/support.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 namespace {
@@ -145,9 +146,9 @@ TEST(Pictures, RasterThreadsDoNotChangeThem) {
                    static_cast<std::streamsize>(picture.rgba.size()));
         return;
     }
+    const test::TemporaryFolder folder;
     const auto drawn = [&](int threads) {
-        const auto file = std::filesystem::temp_directory_path() /
-                          ("grainreel-" + std::to_string(getpid()) + "-" + std::to_string(threads));
+        const auto file = folder / std::to_string(threads);
         const pid_t child = fork();
         if (child == 0) {
             setenv(variable, (std::to_string(threads) + " " + file.string()).c_str(), 1);
@@ -158,10 +159,7 @@ TEST(Pictures, RasterThreadsDoNotChangeThem) {
         int status = -1;
         waitpid(child, &status, 0);
         EXPECT_EQ(status, 0);
-        std::ifstream in(file, std::ios::binary);
-        std::string bytes((std::istreambuf_iterator<char>(in)), {});
-        std::filesystem::remove(file);
-        return bytes;
+        return test::text_of(file);
     };
     const std::string one = drawn(1);
     EXPECT_EQ(one.size(), 640u * 360u * 4u);

@@ -6,8 +6,8 @@
 #include "engine/handover/decks.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/state/wall_motion.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 

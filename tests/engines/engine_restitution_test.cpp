@@ -9,26 +9,21 @@
 #include "engine/base/error.hpp"
 #include "engine/handover/decks.hpp"
 #include "engine/handover/engine_job.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 namespace {
 
 // Ids 0 to 7: AA, AB, BB head on along y; A and B against the floor.
 std::string scene_text(double speed, const std::string& law) {
-    std::string text = R"(gravity = 0
-[[species]]
-name = "A"
-diameter = "2 mm"
-density = "2.5 g/cm3"
-[[species]]
-name = "B"
-diameter = "6 mm"
-density = "2.5 g/cm3"
-[contact]
-friction = 0.3
-)" + law + R"(
+    std::string text = SmallScene("gravity = 0\n")
+                           .beads(0, "A", "2 mm", "2.5 g/cm3")
+                           .beads(0, "B", "6 mm", "2.5 g/cm3")
+                           .more("[contact]\nfriction = 0.3\n")
+                           .text() +
+                       law + R"(
 [[contact.pair]]
 between = ["A", "A"]
 restitution = 0.9

@@ -5,8 +5,8 @@
 #include "engine/handover/decks.hpp"
 #include "engine/handover/dump_tail.hpp"
 #include "engine/handover/handover_folder.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -13,8 +13,9 @@
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/decks.hpp"
 #include "engine/handover/engine_job.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 namespace {
@@ -106,7 +107,7 @@ TEST_P(EarlyEnd, ASignalToTheScriptEndsTheRanks) {
     EXPECT_TRUE(ranks().empty());
     const HandoverFacts facts = read_handover(folder_.path());
     EXPECT_TRUE(job_end(folder_.path(), facts).ended);
-    EXPECT_THAT(job_end(folder_.path(), facts).failure, HasSubstr("was asked to end by a signal"));
+    EXPECT_THAT(job_end(folder_.path(), facts).failure, tells({"asked to end", "signal"}));
     EXPECT_GE(back().frames, 5);
     if (GetParam() == PeerEngine::lammps) return;
     for (const fs::directory_entry& one : fs::directory_iterator(folder_.path()))

@@ -5,8 +5,9 @@
 
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/state/wall_motion.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/engines/handed.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -110,19 +111,12 @@ TEST(OnLammps, ASlidingPlaneDragsABall) {
 
 // A hundred grains in every container that is carried: none is lost, none sinks into a wall.
 std::string bed(const std::string& container, const std::string& more = "") {
-    return R"(
-[[species]]
-name = "ball"
-count = 100
-diameter = { min = "3.8 mm", max = "4.2 mm" }
-density = 2500
-[contact]
-law = "spring-dashpot"
-stiffness = 3000
-restitution = 0.7
-[container]
-)" + container +
-           "[run]\nduration = \"0.1 s\"\n[output]\ntrajectory_interval = \"20 ms\"\n" + more;
+    return test::SmallScene()
+               .beads(100, "ball", "3.8 mm to 4.2 mm")
+               .more("[contact]\nlaw = \"spring-dashpot\"\nstiffness = 3000\nrestitution = 0.7\n")
+               .more("[container]\n")
+               .text() +
+           container + "[run]\nduration = \"0.1 s\"\n[output]\ntrajectory_interval = \"20 ms\"\n" + more;
 }
 
 void expect_sound(const std::string& text, std::size_t grains = 100) {

@@ -1,33 +1,26 @@
-// A folder that is removed at the end, pictures to film, and a drawer without OpenGL.
+// Pictures to film, and a drawer without OpenGL.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "render/film/production/film_maker.hpp"
 #include "render/scene/filmed_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 
 class FilmTest : public ::testing::Test {
   protected:
-    FilmTest() {
-        std::string name = (std::filesystem::temp_directory_path() / "grainreel-film-XXXXXX").string();
-        folder = mkdtemp(name.data());
-    }
-    ~FilmTest() override { std::filesystem::remove_all(folder); }
-
-    std::filesystem::path folder;
+    const TemporaryFolder folder;
 };
 
 // While this lives, no file of this process grows beyond `bytes`. This stands for a full disk.

@@ -25,7 +25,7 @@ class FilmMakerTest : public FilmTest {
   protected:
     FilmOptions options(bool film = true, bool frames = false) const {
         FilmOptions o;
-        o.folder = folder;
+        o.folder = folder.path();
         o.film = film;
         o.frames = frames;
         return o;

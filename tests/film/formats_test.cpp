@@ -40,7 +40,7 @@ class FormatTest : public FilmTest, public ::testing::WithParamInterface<FilmFor
     }
     bool is_rgb() const { return GetParam() == FilmFormat::ffv1 || GetParam() == FilmFormat::gif; }
     std::unique_ptr<FilmWriter> writer(const FilmedScene& s) const {
-        return make_film_writer(s, {folder, false, 2});
+        return make_film_writer(s, {folder.path(), false, 2});
     }
     std::filesystem::path path() const { return folder / film_file_name(GetParam()); }
     FilmFile film() const { return read_film(path()); }
@@ -205,7 +205,7 @@ TEST_F(LosslessFilm, Ffv1KeepsEveryByteAndAlphaWhenAsked) {
         FilmedScene scene = small_scene(70, 66);
         scene.film.format = FilmFormat::ffv1;
         scene.film.transparent = alpha;
-        const auto writer = make_film_writer(scene, {folder, false, 1});
+        const auto writer = make_film_writer(scene, {folder.path(), false, 1});
         for (int i = 0; i < 4; ++i) writer->add(noise(70, 66, i));
         writer->finish();
         const FilmFile film = read_film(folder / "movie.mkv");
@@ -224,7 +224,7 @@ TEST_F(LosslessFilm, AGifStaysNearItsPictures) {
     FilmedScene scene = small_scene(160, 96);
     scene.film.format = FilmFormat::gif;
     scene.film.rate = 50;
-    const auto writer = make_film_writer(scene, {folder, false, 1});
+    const auto writer = make_film_writer(scene, {folder.path(), false, 1});
     for (int i = 0; i < 20; ++i) writer->add(discs(160, 96, i));
     writer->finish();
     const FilmFile film = read_film(folder / "movie.gif");

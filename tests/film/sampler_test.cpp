@@ -10,10 +10,13 @@
 #include "engine/plan/times.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/scene/filmed_scene.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
+using test::tells_only;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -227,12 +230,12 @@ std::string complaint_of(const Film& film, const Clock& clock, std::int64_t step
 TEST(FilmSchedule, NoMoreIsMadeThanAFilmMayHave) {
     const Clock clock = clock_of(1e8, 8);
     const std::int64_t steps = 800'000'000'000'000;
-    EXPECT_EQ(complaint_of(film_of({locked({}, 1, 0)}), clock, steps),
-              "a.toml:4:1: the film would have 1e+14 frames, and the most are 10000000; raise "
-              "'film.segment[0].every' or shorten 'run.duration'");
-    EXPECT_EQ(complaint_of(film_of({motion({}, 1e-320)}), clock, steps),
-              "a.toml:5:2: the film would have 8e+14 frames, and the most are 10000000; raise "
-              "'film.segment[0].playback', now 1e-320, or shorten 'run.duration'");
+    EXPECT_THAT(
+        complaint_of(film_of({locked({}, 1, 0)}), clock, steps),
+        tells_only({"a.toml:4:1", "1e+14 frames", "10000000", "'film.segment[0].every'", "'run.duration'"}));
+    EXPECT_THAT(complaint_of(film_of({motion({}, 1e-320)}), clock, steps),
+                tells_only({"a.toml:5:2", "8e+14 frames", "10000000", "'film.segment[0].playback'", "1e-320",
+                            "'run.duration'"}));
 }
 
 TEST(FilmSchedule, NoMoreMomentsAreKeptThanAFilmMayHave) {
@@ -242,7 +245,7 @@ TEST(FilmSchedule, NoMoreMomentsAreKeptThanAFilmMayHave) {
     const std::int64_t periods = 20'000'000 / 16'001 + 1;
     EXPECT_EQ(complaint_of(film_of({means}), clock, 1000 * (periods - 2)), "no error");
     EXPECT_THAT(complaint_of(film_of({means}), clock, 1000 * periods),
-                HasSubstr("a.toml:4:1: the film's pictures would be made of 2.002e+07 earlier moments"));
+                tells({"a.toml:4:1", "2.002e+07", "earlier moments"}));
     FilmSegment open = motion({}, 1e-9);
     open.exposure = 1e300;
     open.exposures = 1000;
@@ -256,10 +259,8 @@ TEST(FilmSchedule, ALockWithoutADriveIsTheUsersMistake) {
         schedule_of(film_of({motion(1.0, 1), locked({}, 1, 0)}), Clock{1e-4, 0, 0}, 100'000);
         FAIL() << "no error";
     } catch (const UserError& error) {
-        EXPECT_STREQ(
-            error.what(),
-            "a.toml:1:1: film segment 2 is locked to the drive's phase, but nothing is driven; give the "
-            "scene a drive, or make it a motion segment");
+        EXPECT_THAT(error.what(), tells_only({"a.toml:1:1", "segment 2", "phase", "nothing is driven",
+                                              "a drive", "motion segment"}));
     }
 }
 
@@ -291,7 +292,7 @@ TEST(PlaybackCaption, SaysWhatIsPlayedWhereStepsAreCoarser) {
         const std::size_t frames = schedule_of(film_of({motion({}, playback)}), clock, 1000).size();
         EXPECT_NEAR(0.1 / (static_cast<double>(frames) / 30), every_step, 0.0011 * every_step) << playback;
         EXPECT_THAT(pace_warnings(scene_with(film_of({motion({}, playback)})), clock),
-                    ElementsAre(HasSubstr("plays at 0.003 speed; write film.segment[0].playback = 0.003")));
+                    ElementsAre(tells({"0.003 speed", "film.segment[0].playback = 0.003"})));
     }
     for (const double playback : {every_step, 0.01, 4.0}) {
         EXPECT_EQ(played(motion({}, playback), 30, clock).playback, playback);
@@ -322,14 +323,13 @@ TEST(StrobeWarnings, GiveTheApparentMotion) {
                     "lock it to a phase, or set its playback to 0.121 or less"));
     // Just below F, k is still 1 and not the whole number below.
     EXPECT_THAT(strobe_warnings(film_of({motion({}, 1)}), drive_of(28), 10),
-                ElementsAre(HasSubstr("the 28 Hz drive will seem to move at 2 Hz")));
+                ElementsAre(tells({"28 Hz", "seem to move", "2 Hz"})));
     // For F = 15, f = 20 is nearest to 1 F, and |20 - 15| = 5. For F = 60 the nearest multiple is 0 F, which
     // leaves 20 itself.
     EXPECT_THAT(
         strobe_warnings(film_of({motion(1.0, 2), locked(1.0, 1, 0), motion({}, 0.5)}), drive_of(20), 10),
-        ElementsAre(
-            HasSubstr("film segment 1 shows 0.75 frames a period: the 20 Hz drive will seem to move at 5 Hz"),
-            HasSubstr("film segment 3 shows 3 frames a period: the 20 Hz drive will seem to move at 20 Hz")));
+        ElementsAre(tells({"segment 1", "0.75 frames a period", "20 Hz", "seem to move", "5 Hz"}),
+                    tells({"segment 3", "3 frames a period", "20 Hz", "seem to move", "20 Hz"})));
 }
 
 TEST(StrobeWarnings, AreSilentFromEightFramesAPeriodAndWithoutADrive) {
@@ -343,7 +343,7 @@ TEST(StrobeWarnings, AreSilentFromEightFramesAPeriodAndWithoutADrive) {
 TEST(StrobeWarnings, GoByTheStagesOfEachSegment) {
     const Film film = film_of({motion(1.0, 30.0 / 200), motion({}, 30.0 / 200)});
     EXPECT_THAT(strobe_warnings(film, changing_drive(), 2),
-                ElementsAre(HasSubstr("film segment 2 shows 6.06 frames a period: the 33 Hz drive")));
+                ElementsAre(tells({"segment 2", "6.06 frames a period", "33 Hz"})));
 }
 
 TEST(ExposedSteps, AreEvenInMotionAndWholePeriodsApartWhenLocked) {

@@ -14,12 +14,14 @@
 #include "engine/base/error.hpp"
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
 namespace fs = std::filesystem;
+using test::tells;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
@@ -278,7 +280,7 @@ TEST(Archive, AFileOfContactsAloneSaysWhereItBelongs) {
     const TemporaryFolder folder;
     write(folder / "c.dump", contacts_without_names());
     EXPECT_THAT(ForeignArchive(folder / "c.dump", {}).news(),
-                testing::Contains(HasSubstr("has contacts and no grains; open the file of the grains")));
+                testing::Contains(tells({"contacts", "no grains", "file of the grains"})));
 }
 
 TEST(Archive, VelocitiesHaveTheUnitOfTheirNames) {

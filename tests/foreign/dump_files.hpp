@@ -2,12 +2,10 @@
 #pragma once
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 #include <zlib.h>
 #include <zstd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,39 +15,12 @@
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/raw_file.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 
 RawFormat lammps_text_format();
 RawFormat lammps_binary_format();
-
-class DumpFolder {
-  public:
-    DumpFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "dumps-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no folder " << name;
-        path_ = name;
-    }
-    ~DumpFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    DumpFolder(const DumpFolder&) = delete;
-    DumpFolder& operator=(const DumpFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-    std::filesystem::path write(const std::string& name, std::string_view bytes) const {
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
-        return path_ / name;
-    }
-    std::filesystem::path append(const std::string& name, std::string_view bytes) const {
-        std::ofstream(path_ / name, std::ios::binary | std::ios::app) << bytes;
-        return path_ / name;
-    }
-
-  private:
-    std::filesystem::path path_;
-};
 
 // The message of UserError, without the path at its beginning.
 inline std::string complaint_about(const std::filesystem::path& file, const std::function<void()>& act) {
@@ -69,7 +40,7 @@ inline std::unique_ptr<RawFile> open_text(const std::filesystem::path& file) {
 }
 
 // The message when the text is opened and all its frames are read.
-inline std::string text_complaint(const DumpFolder& folder, std::string_view text) {
+inline std::string text_complaint(const test::TemporaryFolder& folder, std::string_view text) {
     const std::filesystem::path file = folder.write("a.dump", text);
     return complaint_about(file, [&] {
         const std::unique_ptr<RawFile> dump = lammps_text_format().open(file);

@@ -3,11 +3,12 @@
 
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "tests/foreign/dump_files.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
-using testing::HasSubstr;
+using test::tells;
 
 WorldCell box_of(const std::string& flags, const std::vector<std::string>& lines) {
     BoxReader reader(flags);
@@ -65,18 +66,16 @@ TEST(DumpBox, GeneralAndUnnamedTilts) {
 }
 
 TEST(DumpBox, WhatIsNoBoxIsRefusedWithItsLine) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto complaint = [&](const std::string& bounds, const std::string& count = "1") {
         return text_complaint(folder, "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + count +
                                           "\nITEM: BOX BOUNDS pp pp pp\n" + bounds + "ITEM: ATOMS id x\n" +
                                           (count == "1" ? "1 0\n" : ""));
     };
-    EXPECT_THAT(complaint("DUMMY\n0 1\n0 1\n"),
-                HasSubstr(":6: a number of the box is expected, and \"DUMMY\""));
-    EXPECT_THAT(complaint("0 1\n0 nan\n0 1\n"),
-                HasSubstr(":7: a number of the box is expected, and \"nan\""));
-    EXPECT_THAT(complaint("0 1\n0 1\n0\n"), HasSubstr(":8: the box has 1 numbers in this line, of 2"));
-    EXPECT_THAT(complaint("0 1\n1 0\n0 1\n"), HasSubstr(":8: the box ends before it begins along y"));
+    EXPECT_THAT(complaint("DUMMY\n0 1\n0 1\n"), tells({":6: ", "number", "expected", "\"DUMMY\""}));
+    EXPECT_THAT(complaint("0 1\n0 nan\n0 1\n"), tells({":7: ", "number", "expected", "\"nan\""}));
+    EXPECT_THAT(complaint("0 1\n0 1\n0\n"), tells({":8: ", "1 numbers", "of 2"}));
+    EXPECT_THAT(complaint("0 1\n1 0\n0 1\n"), tells({":8: ", "ends before", "along y"}));
     EXPECT_EQ(complaint("0 1\n1 0\n0 1\n", "0"), "no complaint");  // a box shrunk around no grain
 }
 

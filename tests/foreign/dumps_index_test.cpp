@@ -5,12 +5,13 @@
 
 #include "engine/files/foreign/dumps/index_file.hpp"
 #include "tests/foreign/dump_files.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 TextIndex index_of(const std::filesystem::path& file) {
     TextIndex index;
@@ -45,7 +46,7 @@ void expect_same(const TextIndex& a, const TextIndex& b) {
 }
 
 TEST(DumpIndex, ThroughBytesAndBack) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const TextIndex index = index_of(folder.write("a", frames(5) + "ITEM: TIME\n"));
     ASSERT_EQ(index.frames.size(), 5u);
     const std::string bytes = index_bytes(index);
@@ -62,7 +63,7 @@ TEST(DumpIndex, ThroughBytesAndBack) {
 }
 
 TEST(DumpIndex, BelongsToOneStateOfTheFile) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto file = folder.write("a", frames(5));
     const auto state = [&] { return FileBytes(file).state(); };
     EXPECT_FALSE(kept_index(file, state()));
@@ -99,7 +100,7 @@ TEST(DumpIndex, BelongsToOneStateOfTheFile) {
 
 // If no index can be written beside the file, it goes to the user's cache.
 TEST(DumpIndex, GoesToTheCacheWhereItMust) {
-    const DumpFolder folder, cache;
+    const test::TemporaryFolder folder, cache;
     const char* const before = std::getenv("XDG_CACHE_HOME");
     const std::string kept_before = before == nullptr ? "" : before;
     ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
@@ -120,7 +121,7 @@ TEST(DumpIndex, GoesToTheCacheWhereItMust) {
 // Everybody may make files beside a dump in /tmp. So an index counts only if the user, or the owner of the
 // dump, has made it, and if it is no link.
 TEST(DumpIndex, OfSomebodyElseIsNotBelieved) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     const auto file = folder.write("a", frames(2));
     const auto index = folder.path() / ".a.grainreel-index";
     keep_index(file, FileBytes(file).state(), index_of(file));
@@ -138,7 +139,7 @@ TEST(DumpIndex, OfSomebodyElseIsNotBelieved) {
 
 // The second time, a large dump is opened by its index: a wrong step in the index is found in the result.
 TEST(DumpIndex, OfALargeDumpIsUsed) {
-    const DumpFolder folder;
+    const test::TemporaryFolder folder;
     std::string rows;
     for (int k = 1; k <= 1000; ++k)
         rows += std::to_string(k) + " 0.12345678901234567 0.12345678901234567 0.12345678901234567\n";
@@ -157,8 +158,7 @@ TEST(DumpIndex, OfALargeDumpIsUsed) {
     const auto dump = open_text(file);
     EXPECT_EQ(dump->moments()[1].step, 77);
     EXPECT_EQ(dump->read(2).grains.rows, 1000u);
-    EXPECT_THAT(complaint_about(file, [&] { dump->read(1); }),
-                HasSubstr("the frame of step 77 is no longer here"));
+    EXPECT_THAT(complaint_about(file, [&] { dump->read(1); }), tells({"step 77", "no longer here"}));
 }
 
 }  // namespace

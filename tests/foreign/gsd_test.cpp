@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tests/foreign/small_files.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 
@@ -13,6 +14,7 @@ RawFormat gsd_format();
 namespace {
 
 using namespace small_files;
+using test::tells;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -217,7 +219,7 @@ TEST(Gsd, AnotherSchemaIsRefusedByName) {
     GsdBytes gsd = bed();
     gsd.schema = "grains";
     EXPECT_THAT(complaint_of(gsd_format(), gsd.bytes()),
-                HasSubstr("the schema \"grains\" is not read; \"hoomd\" is"));
+                tells({"schema \"grains\"", "not read", "\"hoomd\""}));
 }
 
 TEST(Gsd, ChunksOutsideOrOverOthersAreRefused) {
@@ -228,7 +230,7 @@ TEST(Gsd, ChunksOutsideOrOverOthersAreRefused) {
     late.last_frame() = std::uint64_t{1} << 50;
     EXPECT_THAT(complaint_of(gsd_format(), outside.bytes()), HasSubstr("lies outside of the file"));
     EXPECT_THAT(complaint_of(gsd_format(), over.bytes()),
-                HasSubstr("byte 256: two chunks lie over each other"));
+                tells({"byte 256", "two chunks", "over each other"}));
     EXPECT_THAT(complaint_of(gsd_format(), huge.bytes()), HasSubstr("lies outside of the file"));
     EXPECT_THAT(complaint_of(gsd_format(), late.bytes()), HasSubstr("a chunk is of frame"));
 }
@@ -238,14 +240,13 @@ TEST(Gsd, WrongCountsAreRefused) {
     few.chunk(2, "particles/velocity", 3, Floats{1, 2, 3});
     none.chunk(0, "particles/N", 1, Counts{1000000000});
     typed.chunk(2, "particles/typeid", 1, Counts{0, 1, 2});
-    EXPECT_THAT(complaint_of(gsd_format(), few.bytes()), HasSubstr("has 1 rows, and the frame has 3 grains"));
+    EXPECT_THAT(complaint_of(gsd_format(), few.bytes()), tells({"1 rows", "3 grains"}));
     EXPECT_THAT(complaint_of(gsd_format(), none.bytes()), HasSubstr("no places"));
-    EXPECT_THAT(complaint_of(gsd_format(), typed.bytes()),
-                HasSubstr("grains of type 2, and there are 2 types"));
+    EXPECT_THAT(complaint_of(gsd_format(), typed.bytes()), tells({"type 2", "2 types"}));
     GsdBytes nan;
     nan.chunk(0, "particles/N", 1, Counts{1});
     nan.chunk(0, "particles/position", 3, Floats{1, NAN, 2});
-    EXPECT_THAT(complaint_of(gsd_format(), nan.bytes()), HasSubstr("grain 0 of frame 0 has no place"));
+    EXPECT_THAT(complaint_of(gsd_format(), nan.bytes()), tells({"grain 0", "frame 0", "no place"}));
 }
 
 TEST(Gsd, EveryCutIsRefused) {

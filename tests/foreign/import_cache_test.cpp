@@ -80,7 +80,7 @@ class ImportCache : public testing::Test {
         fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::hours(48));
     }
 
-    DumpFolder folder;
+    test::TemporaryFolder folder;
     fs::path temporary = folder.path() / "tmp", dump;
     fs::path imports = temporary / ("grainreel-imports-" + std::to_string(::geteuid()));
     Variable home{"HOME", {}}, cache{"XDG_CACHE_HOME", {}}, temporaries{"TMPDIR", temporary.string()};

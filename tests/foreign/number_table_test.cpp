@@ -1,5 +1,6 @@
 // Tests of the reader of tables of numbers: CSV, and columns between blanks.
 #include "tests/foreign/small_files.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 
@@ -8,6 +9,7 @@ RawFormat number_table_format();
 namespace {
 
 using namespace small_files;
+using test::tells;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -61,7 +63,7 @@ TEST(NumberTable, AWordAmongPlacesIsAMistakeInItsRow) {
 
 TEST(NumberTable, MeasuresOfOursAreNoGrains) {
     EXPECT_THAT(complaint_of(number_table_format(), "step,time_s,cycles,height_difference\n0,0,0,0.5\n"),
-                HasSubstr("the table of measures of a run of ours, a row a moment, and holds no grains"));
+                tells({"table of measures", "holds no grains"}));
 }
 
 TEST(NumberTable, AnIndexWithoutANameIsNumbered) {
@@ -91,7 +93,7 @@ TEST(NumberTable, YadeSaysItsFormat) {
 TEST(NumberTable, FourNamelessColumnsAreSpheresWhereTheFourthIsSmall) {
     const std::string spheres = "0,0,0,0.1\n1,0,0,0.2\n", others = "0,0,0,3\n1,0,0,4\n";
     EXPECT_THAT(names(table_of(spheres)), ElementsAre("x", "y", "z", "radius"));
-    EXPECT_THAT(news_of(number_table_format(), spheres), HasSubstr("taken as x, y, z, radius"));
+    EXPECT_THAT(news_of(number_table_format(), spheres), HasSubstr("x, y, z, radius"));
     EXPECT_THAT(names(table_of(others)), ElementsAre("c1", "c2", "c3", "c4"));
     EXPECT_THAT(news_of(number_table_format(), others), HasSubstr("--columns"));
     EXPECT_THAT(names(table_of("0,0,0\n1,0,0\n")), ElementsAre("c1", "c2", "c3"));

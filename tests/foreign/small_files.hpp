@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
@@ -13,7 +12,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/raw_file.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::small_files {
 
@@ -23,14 +22,8 @@ class OneFile {
     explicit OneFile(std::string_view bytes, const std::string& name = "grains") : path_(folder_ / name) {
         write(bytes);
     }
-    void write(std::string_view bytes) const {
-        std::ofstream(path_, std::ios::binary)
-            .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    }
-    void append(std::string_view bytes) const {
-        std::ofstream(path_, std::ios::binary | std::ios::app)
-            .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    }
+    void write(std::string_view bytes) const { test::write_text(path_, bytes); }
+    void append(std::string_view bytes) const { folder_.append(path_.filename(), bytes); }
     const std::filesystem::path& path() const { return path_; }
 
   private:

@@ -20,7 +20,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/raw_file.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 
@@ -31,19 +31,7 @@ RawFormat wall_surface_format();
 
 namespace vtk_test {
 
-class Folder {
-  public:
-    const std::filesystem::path& path() const { return folder_.path(); }
-    std::filesystem::path write(const std::string& name, std::string_view bytes) const {
-        const std::filesystem::path file = folder_ / name;
-        std::filesystem::create_directories(file.parent_path());
-        std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        return file;
-    }
-
-  private:
-    test::TemporaryFolder folder_;
-};
+using Folder = test::TemporaryFolder;
 
 inline RawFrame frame_in(const RawFormat& format, const std::filesystem::path& file) {
     return format.open(file)->read(0);

@@ -3,11 +3,13 @@
 #include <limits>
 
 #include "tests/foreign/vtk_files.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
 using namespace vtk_test;
+using test::tells;
 using testing::HasSubstr;
 
 FileHead head_of(const std::string& bytes) {
@@ -100,11 +102,10 @@ TEST(WallSurface, WhatIsDamaged) {
     EXPECT_THAT(complaint_of(format, folder.write("a.stl", "solid a\n" + facet(1).substr(0, 60))),
                 HasSubstr("a.stl:"));
     EXPECT_THAT(complaint_of(format, folder.write("a.stl", "solid a\nendsolid a\n")),
-                HasSubstr("a.stl: this ASCII STL has no triangles"));
+                tells({"a.stl", "ASCII STL", "no triangles"}));
     std::string nan = binary_stl("", 2);
     nan.replace(84 + 12, 4, as_bytes(std::nanf(""), false));
-    EXPECT_THAT(complaint_of(format, folder.write("a.stl", nan)),
-                HasSubstr("a.stl: byte 96: has a coordinate"));
+    EXPECT_THAT(complaint_of(format, folder.write("a.stl", nan)), tells({"a.stl", "byte 96", "coordinate"}));
 }
 
 }  // namespace

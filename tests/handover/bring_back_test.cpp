@@ -9,7 +9,7 @@
 #include "engine/handover/decks.hpp"
 #include "engine/handover/dump_tail.hpp"
 #include "engine/handover/engine_job.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -10,29 +10,21 @@
 #include "engine/handover/carry.hpp"
 #include "engine/handover/decks.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using testing::HasSubstr;
 
-const std::string head = R"(
-[[species]]
-name = "ball"
-count = 50
-diameter = "4 mm"
-density = 2500
-[container]
-shape = "box"
-width = "40 mm"
-depth = "40 mm"
-height = "60 mm"
-[drive]
-frequency = "20 Hz"
-amplitude = "1 mm"
-[run]
-duration = "0.5 s"
-)";
+const std::string head = test::SmallScene()
+                             .beads(50, "ball")
+                             .box("40 mm", "40 mm", "60 mm")
+                             .more("[drive]\nfrequency = \"20 Hz\"\namplitude = \"1 mm\"\n")
+                             .lasts("0.5 s")
+                             .text();
 const std::string exact = "[contact]\nlaw = \"spring-dashpot\"\n";
 
 CarriedScene carried_of(const std::string& text, CarryRequest request = {}) {
@@ -111,8 +103,7 @@ TEST(Carry, RefusalsNameTheOptionOfTheVerbInUse) {
     EXPECT_THAT(text, HasSubstr("for); use --engine liggghts"));
     EXPECT_THAT(text, testing::Not(HasSubstr("--to")));
     request.edinburgh = true;
-    EXPECT_THAT(refusals(law + head, request),
-                HasSubstr("--law edinburgh: is a law of LIGGGHTS; use --engine "));
+    EXPECT_THAT(refusals(law + head, request), tells({"--law edinburgh", "LIGGGHTS", "--engine"}));
     request.edinburgh = false;
     request.packs_above = 10;
     EXPECT_THAT(refusals("[contact]\nlaw = \"hertz\"\n" + head, request),

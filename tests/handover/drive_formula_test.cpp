@@ -12,30 +12,19 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/wall_motion.hpp"
 #include "tests/handover/peer_expression.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace grainreel {
 namespace {
 
-const std::string scene_text = R"(
-[[species]]
-name = "ball"
-count = 1
-diameter = "4 mm"
-density = 2500
-[contact]
-stiffness = 20000
-[container]
-shape = "box"
-width = "40 mm"
-depth = "40 mm"
-height = "60 mm"
-[run]
-duration = "1.2 s"
-[drive]
-frequency = "20 Hz"
-amplitude = "1 mm"
-direction = [1, 0, 2]
-)";
+const std::string scene_text = test::SmallScene()
+                                   .beads(1, "ball")
+                                   .more("[contact]\nstiffness = 20000\n")
+                                   .box("40 mm", "40 mm", "60 mm")
+                                   .lasts("1.2 s")
+                                   .more("[drive]\nfrequency = \"20 Hz\"\namplitude = \"1 mm\"\n")
+                                   .more("direction = [1, 0, 2]\n")
+                                   .text();
 
 struct Motion {
     double shift, speed, ride;

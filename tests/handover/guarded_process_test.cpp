@@ -15,7 +15,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/handover/engine_job.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/hard/group.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::hard {
 

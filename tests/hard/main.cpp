@@ -13,8 +13,8 @@
 
 #include <fmt/format.h>
 
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/hard/group.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::hard {
 namespace {

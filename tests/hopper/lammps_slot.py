@@ -10,13 +10,16 @@ flows between 10 % and 35 % of the mass, by least squares of the mass that has f
 ratio. It should be 1 within 5 %. Needs `lmp` (Debian: lammps).
 """
 import argparse
-import csv
 import math
 import os
 import sys
+from pathlib import Path
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from slot_rate import D, K, SOLID, call  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from program import call  # noqa: E402
+from rates import rate_of_slot, slope  # noqa: E402
+from runs import numbers, texts  # noqa: E402
+from slot_rate import D, SOLID  # noqa: E402
 
 STIFFNESS = 2000.0  # N/m
 DAMPING = 1555.0  # 1/s, times the effective mass: a restitution of 0.7 for two grains of diameter D
@@ -88,7 +91,7 @@ def geometry(ratio):
     width, depth = (ratio + 30) * D, 6 * D
     count = int(0.6 * width * depth * 1.2 * width / (math.pi / 6 * D**3))
     mass = count * math.pi / 6 * D**3 * SOLID
-    expected = 1.03 * 0.6 * SOLID * math.sqrt(9.81) * depth * ((ratio - K) * D) ** 1.5
+    expected = rate_of_slot(1.03, 0.6 * SOLID, depth, ratio * D, D)
     return width, depth, count, 0.1 + 0.45 * mass / expected
 
 
@@ -136,12 +139,6 @@ def lammps(folder, ratio, friction, duration, grains):
     return out
 
 
-def slope(points):
-    mean_t = sum(t for t, _ in points) / len(points)
-    mean_m = sum(m for _, m in points) / len(points)
-    return sum((t - mean_t) * (m - mean_m) for t, m in points) / sum((t - mean_t) ** 2 for t, _ in points)
-
-
 def mass_of(radius):
     return 4 / 3 * math.pi * radius**3 * SOLID
 
@@ -149,11 +146,10 @@ def mass_of(radius):
 def below_floor(out, times):
     """Mass that has passed the floor, from when and how fast each grain left at the exit's depth."""
     passed = []
-    with open(os.path.join(out, "outflow.csv")) as file:
-        for row in csv.DictReader(file):
-            fall, speed = -float(row["z"]), -float(row["vz"])
-            passed.append((float(row["time_s"]) - (speed - math.sqrt(max(0.0, speed**2 - 2 * 9.81 * fall))) / 9.81,
-                           mass_of(float(row["radius"]))))
+    for row in numbers(os.path.join(out, "outflow.csv")):
+        fall, speed = -row["z"], -row["vz"]
+        passed.append((row["time_s"] - (speed - math.sqrt(max(0.0, speed**2 - 2 * 9.81 * fall))) / 9.81,
+                       mass_of(row["radius"])))
     passed.sort()
     points, sum_of, at = [], 0.0, 0
     for time in times:
@@ -178,8 +174,7 @@ def main():
     start = f'method = "file"\nfile = "{rest}/final.csv"'
     ours = grainreel(program, folder, "slot", ratio, friction, f"outlet = {{ width = {ratio * D}, exit_depth = {4 * D} }}",
                      start, duration)
-    with open(os.path.join(rest, "final.csv")) as file:
-        grains = list(csv.DictReader(file))
+    grains = texts(os.path.join(rest, "final.csv"))
     theirs = lammps(folder, ratio, friction, duration, grains)
     mass = sum(mass_of(float(g["radius"])) for g in grains)
     with open(theirs) as file:

@@ -15,15 +15,18 @@ in Nedderman 1992, Statics and Kinematics of Granular Materials, ch. 10: C = 1.0
 the bed at rest, the exponent of (B - k d) that fits the rates best, and the k with which it is 1.5.
 """
 import argparse
-import csv
 import math
 import os
-import subprocess
 import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from program import call  # noqa: E402
+from rates import K, rate_of_slot, slope  # noqa: E402
+from runs import numbers  # noqa: E402
 
 D = 0.004  # m, mean diameter
 SOLID = 2500.0  # kg/m3
-K = 1.4
 SCENE = """title = "Slot hopper, B = {ratio:g} d"
 [[species]]
 name = "grain"
@@ -57,20 +60,10 @@ def scene_of(ratio, depth, friction):
     volume = math.pi / 6 * D**3
     count = int(0.6 * width * depth * 1.2 * width / volume)
     mass = count * volume * SOLID
-    expected = 1.03 * 0.6 * SOLID * math.sqrt(9.81) * depth * ((ratio - K) * D) ** 1.5
+    expected = rate_of_slot(1.03, 0.6 * SOLID, depth, ratio * D, D)
     return mass, SCENE.format(
         ratio=ratio, count=count, friction=friction, low=0.9 * D, high=1.1 * D, solid=SOLID, width=width, depth=depth,
         height=2.2 * width, slot=ratio * D, exit=4 * D, duration=0.1 + 0.55 * mass / expected)
-
-
-def call(*words):
-    """Runs a program; ends with one line where it is missing or fails."""
-    try:
-        code = subprocess.run(words, stdout=subprocess.DEVNULL, check=False).returncode
-    except OSError as problem:
-        sys.exit(f"{words[0]}: {problem.strerror}; give the path of a program that runs")
-    if code != 0:
-        sys.exit(f"`{' '.join(words)}` ended with {code}")
 
 
 def run(program, folder, ratio, depth, friction):
@@ -81,11 +74,8 @@ def run(program, folder, ratio, depth, friction):
         with open(path, "w") as file:
             file.write(text)
         call(program, "movie", path, "--no-film", "--quiet", "--threads", "1", "--out", out, "--force")
-    left = []
-    with open(os.path.join(out, "outflow.csv")) as file:
-        for row in csv.DictReader(file):
-            left.append((float(row["time_s"]), 4 / 3 * math.pi * float(row["radius"]) ** 3 * SOLID))
-    return rate_of(left, mass)
+    rows = numbers(os.path.join(out, "outflow.csv"))
+    return rate_of([(row["time_s"], 4 / 3 * math.pi * row["radius"] ** 3 * SOLID) for row in rows], mass)
 
 
 def rate_of(left, mass):
@@ -97,16 +87,12 @@ def rate_of(left, mass):
             points.append((time, sum_of))
     if len(points) < 100:
         raise SystemExit(f"only {len(points)} grains left within the window: the hopper has clogged, or the run is too short")
-    mean_t = sum(t for t, _ in points) / len(points)
-    mean_m = sum(m for _, m in points) / len(points)
-    return (sum((t - mean_t) * (m - mean_m) for t, m in points) / sum((t - mean_t) ** 2 for t, _ in points))
+    return slope(points)
 
 
 def exponent(points, k):
     """Of (B - k d), by least squares of logarithms. points: (B/d, rate)."""
-    x, y = [math.log(b - k) for b, _ in points], [math.log(w) for _, w in points]
-    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
-    return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
+    return slope([(math.log(b - k), math.log(w)) for b, w in points])
 
 
 def best_k(points):
@@ -131,7 +117,7 @@ def main():
     print("  B/d   W in kg/s       C   W/L in kg/(s m)")
     for ratio in words.ratios:
         rate = run(words.program, words.folder, ratio, depth, words.friction)
-        c = rate / (0.6 * SOLID * math.sqrt(9.81) * depth * ((ratio - K) * D) ** 1.5)
+        c = rate / rate_of_slot(1, 0.6 * SOLID, depth, ratio * D, D)
         points.append((ratio, rate))
         print(f"{ratio:5g}  {rate:10.4f}  {c:6.3f}  {rate / depth:10.3f}", flush=True)
     if len(points) > 1:

@@ -17,41 +17,27 @@
 #include <grainreel/run.hpp>
 #include <grainreel/simulation.hpp>
 
-#include "tests/library/own_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gr = grainreel;
 
 namespace {
 
-const std::string two_sizes = R"(
-    [[species]]
-    name = "small"
-    count = 30
-    diameter = "3 mm"
-    density = "2.5 g/cm3"
-    [[species]]
-    name = "big"
-    count = 3
-    diameter = "6 mm"
-    density = "2.5 g/cm3"
-    [container]
-    shape = "box"
-    width = "20 mm"
-    depth = "15 mm"
-    height = "40 mm"
-    [drive]
-    frequency = "30 Hz"
-    amplitude = "0.5 mm"
-    [run]
-    duration = "0.05 s"
-    accuracy = "draft"
-)";
+const std::string two_sizes = grainreel::test::SmallScene()
+                                  .beads(30, "small", "3 mm", "2.5 g/cm3")
+                                  .beads(3, "big", "6 mm", "2.5 g/cm3")
+                                  .box("20 mm", "15 mm", "40 mm")
+                                  .more("[drive]\nfrequency = \"30 Hz\"\namplitude = \"0.5 mm\"\n")
+                                  .lasts("0.05 s")
+                                  .more("accuracy = \"draft\"\n")
+                                  .text();
 
 gr::Scene scene() {
     return gr::Scene::from_text(two_sizes, "two_sizes.toml");
 }
 
-using Folder = OwnFolder;
+using Folder = grainreel::test::TemporaryFolder;
 
 // A spring with a dashpot, and a number of its own: how many calls the contact has seen.
 class Counting final : public gr::ContactLaw {

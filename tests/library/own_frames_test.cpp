@@ -13,7 +13,7 @@
 #include <grainreel/files.hpp>
 #include <grainreel/picture.hpp>
 
-#include "tests/library/own_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gr = grainreel;
 
@@ -51,7 +51,7 @@ bool has(const std::string& text, const std::string& part) {
 const std::vector<std::string> kept_whole{"netcdf", "lammps-dump", "xyz", "csv", "vtk", "gsd"};
 
 TEST(OwnFrames, ComeBackWithoutStepsInEveryFormat) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     for (const std::string& format : kept_whole) {
         gr::FrameWriter writer(folder / format, format, one_species());
         const std::vector<int> counts{5, 7, 3, 20};  // grains come and go
@@ -73,7 +73,7 @@ TEST(OwnFrames, ComeBackWithoutStepsInEveryFormat) {
 
 // The file has as many places as its largest frame has grains.
 TEST(OwnFrames, MakeATrajectoryThatGrows) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     gr::FrameWriter writer(folder / "run.nc", "netcdf", one_species());
     for (int k = 0; k < 30; ++k) {
         gr::Frame frame = row_of_balls(k, 0.01 * k);  // none at first
@@ -107,7 +107,7 @@ TEST(OwnFrames, MakeATrajectoryThatGrows) {
 
 // In a dump of a region, a grain may come whose id lies between those of others.
 TEST(OwnFrames, MayComeInAnyOrderOfIds) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     const std::vector<std::vector<std::int32_t>> ids{{1, 3}, {1, 2, 3}, {0, 4}, {2, 5, 6}};
     gr::FrameWriter writer(folder / "a.dump", "lammps-dump", one_species());
     for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -128,7 +128,7 @@ TEST(OwnFrames, MayComeInAnyOrderOfIds) {
 }
 
 TEST(OwnFrames, MustRise) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     gr::FrameWriter writer(folder / "a.xyz", "xyz", one_species());
     gr::Frame frame = row_of_balls(2, 1);
     frame.step = 10;
@@ -155,7 +155,7 @@ TEST(OwnFrames, MustRise) {
 }
 
 TEST(OwnFrames, MayHaveNoTimes) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     for (const std::string format : {"xyz", "lammps-dump", "vtk", "csv", "gsd"}) {
         gr::FrameWriter writer(folder / format, format, one_species());
         for (const int count : {2, 3}) writer.write(row_of_balls(count, NAN));
@@ -172,7 +172,7 @@ TEST(OwnFrames, MayHaveNoTimes) {
 }
 
 TEST(OwnFrames, LeaveNoFileIfAllAreRefused) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     for (const std::string& format : gr::written_formats()) {
         gr::Frame bad = row_of_balls(2, 0);
         bad.radius[1] = -1;
@@ -191,7 +191,7 @@ TEST(OwnFrames, LeaveNoFileIfAllAreRefused) {
 }
 
 TEST(OwnFrames, MustFitTheirWorld) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     gr::World world = one_species();
     world.walls = {gr::Mesh::box("box", {-0.01, -0.01, 0}, {0.3, 0.01, 0.1})};
     gr::Frame frame = row_of_balls(9, 0);
@@ -231,7 +231,7 @@ TEST(OwnFrames, MustFitTheirWorld) {
 }
 
 TEST(FramesOfOneFile, AreReadAlone) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     for (const int number : {0, 10}) {
         gr::FrameWriter writer(folder / ("dump" + std::to_string(number)), "xyz", one_species());
         gr::Frame frame = row_of_balls(number + 1, number);
@@ -250,7 +250,7 @@ TEST(FramesOfOneFile, AreReadAlone) {
 
 // Files of a series that have the same step and the same grains: the later one counts, and this is said.
 TEST(FramesOfOneFile, AreToldToComeTwice) {
-    const OwnFolder folder;
+    const grainreel::test::TemporaryFolder folder;
     for (const std::string ending : {"xyz", "dump"}) {
         for (const int number : {1, 2}) {
             gr::FrameWriter writer(folder / (ending + std::to_string(number)),

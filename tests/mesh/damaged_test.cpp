@@ -9,10 +9,12 @@
 #include "engine/base/error.hpp"
 #include "tests/mesh/mesh_files.hpp"
 #include "tests/mesh/shapes.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using testing::HasSubstr;
 
 std::string complaint(const std::function<void()>& act) {
@@ -24,7 +26,7 @@ std::string complaint(const std::function<void()>& act) {
     return "no complaint";
 }
 
-std::string complaint_of(const MeshFolder& folder, std::string_view bytes) {
+std::string complaint_of(const test::TemporaryFolder& folder, std::string_view bytes) {
     const auto file = folder.write("m", bytes);
     const std::string message = complaint([&] { load_mesh(file); });
     EXPECT_EQ(message.substr(0, file.string().size() + 1), file.string() + ":") << message;
@@ -32,11 +34,11 @@ std::string complaint_of(const MeshFolder& folder, std::string_view bytes) {
 }
 
 TEST(DamagedMesh, WhatIsNoOrdinaryFile) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const auto complaint_at = [](const std::filesystem::path& file) {
         return complaint([&] { load_mesh(file); });
     };
-    EXPECT_THAT(complaint_at(folder.path() / "none.stl"), HasSubstr("there is no such file; give the path"));
+    EXPECT_THAT(complaint_at(folder.path() / "none.stl"), tells({"no such file", "path"}));
     EXPECT_THAT(complaint_at(folder.path()), HasSubstr("this is a folder"));
     ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
     EXPECT_THAT(complaint_at(folder.path() / "pipe"), HasSubstr("this is a pipe"));
@@ -48,21 +50,15 @@ TEST(DamagedMesh, WhatIsNoOrdinaryFile) {
 }
 
 TEST(DamagedMesh, BinaryStl) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const std::string good = binary_stl(plate(), "", 2);
     EXPECT_THAT(complaint_of(folder, ""), HasSubstr("is empty"));
-    EXPECT_THAT(
-        complaint_of(folder, binary_stl(plate(), "", 4'000'000'000u)),
-        HasSubstr(
-            "byte 80: is no mesh, or a damaged one: as a binary STL it says 4000000000 triangles, which "
-            "take 200000000084 bytes; the file has 184"));
-    EXPECT_THAT(complaint_of(folder, good.substr(0, 154)),
-                HasSubstr("says 2 triangles, which take 184 bytes; the file has 154"));
-    EXPECT_THAT(
-        complaint_of(folder, binary_stl(plate(), "solid", 3)),
-        HasSubstr(
-            "byte 80: this binary STL says 3 triangles, which take 234 bytes; the file has 184; export"));
-    EXPECT_THAT(complaint_of(folder, binary_stl({}, "", 0)), HasSubstr("this binary STL has no triangles"));
+    EXPECT_THAT(complaint_of(folder, binary_stl(plate(), "", 4'000'000'000u)),
+                tells({"byte 80", "no mesh", "4000000000 triangles", "200000000084", "184"}));
+    EXPECT_THAT(complaint_of(folder, good.substr(0, 154)), tells({"2 triangles", "184 bytes", "154"}));
+    EXPECT_THAT(complaint_of(folder, binary_stl(plate(), "solid", 3)),
+                tells({"byte 80", "3 triangles", "234", "184", "export"}));
+    EXPECT_THAT(complaint_of(folder, binary_stl({}, "", 0)), tells({"binary STL", "no triangles"}));
     EXPECT_THAT(complaint_of(folder, good.substr(0, 20) + '\0'), HasSubstr("is no mesh"));
     for (const float bad : {std::nanf(""), -std::numeric_limits<float>::infinity(), 1e30f}) {
         std::string bytes = good;
@@ -76,7 +72,7 @@ TEST(DamagedMesh, BinaryStl) {
 }
 
 TEST(DamagedMesh, AsciiStl) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const std::string good = std::string("solid plate\n") + plate_facets + "endsolid plate\n";
     const auto with = [&](const std::string& old, const std::string& now) {
         std::string text = good;
@@ -87,40 +83,35 @@ TEST(DamagedMesh, AsciiStl) {
                     HasSubstr(std::string(":5: \"") + bad + "\" is not a finite number"));
     EXPECT_THAT(complaint_of(folder, with("0.25 0 0", "1e16 0 0")), HasSubstr(":5: a coordinate of 1e+16"));
     EXPECT_THAT(complaint_of(folder, with("0.25 0 0\n", "0.25 0\n")),
-                HasSubstr(":6: \"vertex\" is not a finite number"));
+                tells({":6: ", "\"vertex\"", "not a finite number"}));
     EXPECT_THAT(complaint_of(folder, with("endloop", "vertex 1 1 1\nendloop")),
-                HasSubstr(":7: a facet with a fourth corner"));
-    EXPECT_THAT(complaint_of(folder, with("outer", "inner")),
-                HasSubstr(":4: \"vertex\" where \"outer\" must stand"));
-    EXPECT_THAT(complaint_of(folder, good.substr(0, good.find("endloop"))),
-                HasSubstr("the file ends within a facet"));
-    EXPECT_THAT(complaint_of(folder, "solid\nendsolid\n"), HasSubstr("this ASCII STL has no triangles"));
-    EXPECT_THAT(complaint_of(folder, "Dear Sir,\nplease find enclosed\n"),
-                HasSubstr(":1: this text is no mesh"));
+                tells({":7: ", "fourth corner"}));
+    EXPECT_THAT(complaint_of(folder, with("outer", "inner")), tells({":4: ", "\"vertex\"", "\"outer\""}));
+    EXPECT_THAT(complaint_of(folder, good.substr(0, good.find("endloop"))), HasSubstr("ends within a facet"));
+    EXPECT_THAT(complaint_of(folder, "solid\nendsolid\n"), tells({"ASCII STL", "no triangles"}));
+    EXPECT_THAT(complaint_of(folder, "Dear Sir,\nplease find enclosed\n"), tells({":1: ", "no mesh"}));
 }
 
 TEST(DamagedMesh, Obj) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    EXPECT_THAT(complaint_of(folder, vertices + "f 1 2 4\n"),
-                HasSubstr(":4: a face names vertex 4, and there are 3"));
-    EXPECT_THAT(complaint_of(folder, vertices + "f 1 2 -4\n"), HasSubstr(":4: a face names vertex -4"));
+    EXPECT_THAT(complaint_of(folder, vertices + "f 1 2 4\n"), tells({":4: ", "vertex 4", "3"}));
+    EXPECT_THAT(complaint_of(folder, vertices + "f 1 2 -4\n"), tells({":4: ", "vertex -4"}));
     EXPECT_THAT(complaint_of(folder, vertices + "f 1 2 99999999999\n"),
-                HasSubstr(":4: a face names vertex 99999999999"));
+                tells({":4: ", "vertex 99999999999"}));
     EXPECT_THAT(complaint_of(folder, vertices + "f 1 2 0\n"),
-                HasSubstr(":4: \"0\" names no vertex; indices begin at 1"));
+                tells({":4: ", "\"0\"", "no vertex", "begin at 1"}));
     EXPECT_THAT(complaint_of(folder, vertices + "f 1 2 x\n"), HasSubstr(":4: \"x\" names no vertex"));
-    EXPECT_THAT(complaint_of(folder, vertices + "\nf 1 \\\n 2\n"), HasSubstr(":5: a face with 2 corners"));
+    EXPECT_THAT(complaint_of(folder, vertices + "\nf 1 \\\n 2\n"), tells({":5: ", "2 corners"}));
     EXPECT_THAT(complaint_of(folder, vertices + "v 1 2\n"), HasSubstr(":4: a number is missing"));
     EXPECT_THAT(complaint_of(folder, vertices + "v 1 nan 2\n"),
-                HasSubstr(":4: \"nan\" is not a finite number"));
-    EXPECT_THAT(complaint_of(folder, vertices + "w 1 1 2\n"),
-                HasSubstr(":4: \"w\" begins no line of an OBJ file"));
+                tells({":4: ", "\"nan\"", "not a finite number"}));
+    EXPECT_THAT(complaint_of(folder, vertices + "w 1 1 2\n"), tells({":4: ", "\"w\"", "no line", "OBJ"}));
     EXPECT_THAT(complaint_of(folder, vertices), HasSubstr("this OBJ has no triangles"));
 }
 
 TEST(DamagedMesh, Ply) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const auto head = [](const std::string& vertices, const std::string& faces,
                          const std::string& format = "ascii") {
         return "ply\nformat " + format + " 1.0\nelement vertex " + vertices +
@@ -129,17 +120,15 @@ TEST(DamagedMesh, Ply) {
     };
     const std::string corners = "0 0 0\n1 0 0\n0 1 0\n";
     EXPECT_THAT(complaint_of(folder, head("3", "1") + corners + "3 0 1 3\n"),
-                HasSubstr(":13: a face names vertex 3; they are 0 to 2"));
-    EXPECT_THAT(complaint_of(folder, head("3", "1") + corners + "3 0 1 -1\n"),
-                HasSubstr(":13: a face names vertex -1"));
-    EXPECT_THAT(complaint_of(folder, head("3", "1") + corners + "2 0 1\n"),
-                HasSubstr(":13: a face with 2 corners"));
+                tells({":13: ", "vertex 3", "0 to 2"}));
+    EXPECT_THAT(complaint_of(folder, head("3", "1") + corners + "3 0 1 -1\n"), tells({":13: ", "vertex -1"}));
+    EXPECT_THAT(complaint_of(folder, head("3", "1") + corners + "2 0 1\n"), tells({":13: ", "2 corners"}));
     EXPECT_THAT(complaint_of(folder, head("3", "1") + "0 0 inf\n1 0 0\n0 1 0\n3 0 1 2\n"),
-                HasSubstr(":10: \"inf\" is not a finite number"));
+                tells({":10: ", "\"inf\"", "not a finite number"}));
     EXPECT_THAT(complaint_of(folder, head("3", "2") + corners + "3 0 1 2\n"),
-                HasSubstr("the file ends before all elements"));
+                HasSubstr("ends before all elements"));
     EXPECT_THAT(complaint_of(folder, head("3000000000000", "1") + corners + "3 0 1 2\n"),
-                HasSubstr("the header says 3000000000000 of element vertex"));
+                tells({"3000000000000", "element vertex"}));
     EXPECT_THAT(complaint_of(folder, head("3", "1") + corners + "250 0 1 2\n"),
                 HasSubstr("a list of 250 numbers"));
     EXPECT_THAT(complaint_of(folder, "ply\nformat ascii 1.0\nelement vertex 3\n"),
@@ -156,8 +145,7 @@ TEST(DamagedMesh, Ply) {
     std::string binary = head("3", "1", "binary_little_endian");
     const std::size_t body = binary.size();
     for (int i = 0; i < 9; ++i) append(binary, static_cast<float>(i * i));
-    EXPECT_THAT(complaint_of(folder, binary.substr(0, binary.size() - 2)),
-                HasSubstr("the file has only 34 bytes"));
+    EXPECT_THAT(complaint_of(folder, binary.substr(0, binary.size() - 2)), HasSubstr("only 34 bytes"));
     append(binary, std::uint8_t{3});
     for (const int i : {0, 1, 7}) append(binary, i);
     EXPECT_THAT(complaint_of(folder, binary),
@@ -168,11 +156,10 @@ TEST(DamagedMesh, Ply) {
 }
 
 TEST(DamagedMesh, TrianglesWithoutArea) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     EXPECT_THAT(complaint_of(folder, "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n"),
-                HasSubstr("all triangles of this mesh are without area"));
-    EXPECT_THAT(complaint_of(folder, "v 5 5 5\nf 1 1 1\n"),
-                HasSubstr("all triangles of this mesh are without area"));
+                tells({"all triangles", "without area"}));
+    EXPECT_THAT(complaint_of(folder, "v 5 5 5\nf 1 1 1\n"), tells({"all triangles", "without area"}));
     MeshPlacement huge;
     huge.scale = 1e300;
     const auto file = folder.write("plate.stl", binary_stl(plate(), "", 2));
@@ -181,7 +168,7 @@ TEST(DamagedMesh, TrianglesWithoutArea) {
 
 // Whatever is done to a file, it is read or refused.
 TEST(DamagedMesh, RandomDamageIsReadOrRefused) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     std::mt19937 random(49);
     const std::string good[] = {
         binary_stl(plate(), "solid", 2), std::string("solid plate\n") + plate_facets + "endsolid plate\n",

@@ -6,7 +6,7 @@
 namespace grainreel {
 namespace {
 
-void expect_plate(const MeshFolder& folder, std::string_view bytes, const std::string& format,
+void expect_plate(const test::TemporaryFolder& folder, std::string_view bytes, const std::string& format,
                   const char* what) {
     const LoadedMesh loaded = load_mesh(folder.write("a file without a suffix", bytes));
     EXPECT_EQ(loaded.facts.format, format) << what;
@@ -17,14 +17,14 @@ void expect_plate(const MeshFolder& folder, std::string_view bytes, const std::s
 }
 
 TEST(MeshFile, BinaryStlIsToldByItsSize) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     expect_plate(folder, binary_stl(plate(), "a head", 2), "binary STL", "plain");
     expect_plate(folder, binary_stl(plate(), "solid by some program", 2), "binary STL", "begins with solid");
     expect_plate(folder, binary_stl(plate(), "a head", 2, 0x7fff), "binary STL", "attributes");
 }
 
 TEST(MeshFile, AsciiStlTakesWhatProgramsWrite) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const std::string facets = plate_facets, plain = "solid plate\n" + facets + "endsolid plate\n";
     expect_plate(folder, plain, "ASCII STL", "plain");
     expect_plate(folder, with_ends(plain, "\r\n"), "ASCII STL", "CRLF");
@@ -43,7 +43,7 @@ TEST(MeshFile, AsciiStlTakesWhatProgramsWrite) {
 }
 
 TEST(MeshFile, NormalsOfTheFileAreLeftOut) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     for (const char* normal : {"0 0 -1", "0 0 0", "nan nan nan", "-1.#IND 0 7", ""}) {
         std::string facets = plate_facets;
         for (std::size_t at = 0; (at = facets.find("0 0 1\n", at)) != std::string::npos;)
@@ -53,7 +53,7 @@ TEST(MeshFile, NormalsOfTheFileAreLeftOut) {
 }
 
 TEST(MeshFile, NumbersOfAllKinds) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const LoadedMesh loaded =
         load_mesh(folder.write("numbers.stl",
                                "solid\nfacet\nouter loop\nvertex +1.5 0. -2.e-016\nvertex -1. 1e-400 "
@@ -64,7 +64,7 @@ TEST(MeshFile, NumbersOfAllKinds) {
 
 // 0.1f is not 0.1; who wrote it meant the same.
 TEST(MeshFile, FloatsMeanTheirShortestDecimals) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     TriangleMesh mesh;
     const std::vector<Vec3> expected{{0.1, -0.3, 1e-7}, {123.456, 3, 16777216}, {0.7, 0.0554222, -2.5e-5}};
     shapes::add_triangle(mesh, expected[0], expected[1], expected[2]);
@@ -72,7 +72,7 @@ TEST(MeshFile, FloatsMeanTheirShortestDecimals) {
 }
 
 TEST(MeshFile, ObjNamesVerticesInManyWays) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const std::string vertices =
         "# a plate\nmtllib none.mtl\no plate\nv 0 0 0\nv 0.25 0 0 1\nv 0.25 0.25 0 1 0.5 0\nv 0 0.25 0 1 1 1 "
         "1\n";
@@ -115,7 +115,7 @@ std::string ply_body(bool big_endian) {
 }
 
 TEST(MeshFile, PlyOfBothByteOrdersAndText) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const std::string more = "property short nx\nproperty list uint8 double weights\n",
                       flags = "property uint16 flags\n";
     expect_plate(folder, ply_head("binary_little_endian", more, flags) + ply_body(false), "PLY",
@@ -128,7 +128,7 @@ TEST(MeshFile, PlyOfBothByteOrdersAndText) {
 }
 
 TEST(MeshFile, PolygonsAreCutFromTheirFirstCorner) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const LoadedMesh loaded =
         load_mesh(folder.write("five.obj", "v 0 0 0\nv 2 0 0\nv 3 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\n"));
     const std::vector<TriangleMesh::Triangle> expected{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
@@ -136,7 +136,7 @@ TEST(MeshFile, PolygonsAreCutFromTheirFirstCorner) {
 }
 
 TEST(MeshFile, IsPlacedByScaleThenRotationThenPosition) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const auto file = folder.write("plate.stl", binary_stl(plate(), "", 2));
     MeshPlacement placement;
     placement.scale = 0.001;
@@ -152,7 +152,7 @@ TEST(MeshFile, IsPlacedByScaleThenRotationThenPosition) {
 }
 
 TEST(MeshFile, HashIsOfTheBytesAlone) {
-    const MeshFolder folder;
+    const test::TemporaryFolder folder;
     const std::string bytes = binary_stl(plate(), "", 2);
     const auto file = folder.write("a.stl", bytes), same = folder.write("b.stl", bytes),
                other = folder.write("c.stl", binary_stl(plate(), "other", 2));

@@ -1,13 +1,14 @@
 #include <gmock/gmock.h>
 
 #include "tests/mesh/shapes.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using testing::Contains;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 // Six times the signed volume.
@@ -95,7 +96,7 @@ TEST(Mending, CracksAlongOpenEdgesAreClosed) {
     mend(mesh, facts);
     EXPECT_TRUE(facts.closed());
     EXPECT_EQ(facts.vertices, 3 * 24 + 2);
-    EXPECT_THAT(facts.mended, Contains(HasSubstr("vertices of open edges were joined")));
+    EXPECT_THAT(facts.mended, Contains(tells({"vertices", "open edges", "joined"})));
 }
 
 TEST(Mending, TwoPlatesThatNearlyTouchStayTwo) {

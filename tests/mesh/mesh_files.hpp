@@ -9,22 +9,9 @@
 #include <vector>
 
 #include "engine/mesh/load_mesh.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
-
-class MeshFolder {
-  public:
-    const std::filesystem::path& path() const { return folder_.path(); }
-    std::filesystem::path write(const std::string& name, std::string_view bytes) const {
-        std::ofstream(folder_ / name, std::ios::binary)
-            .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        return folder_ / name;
-    }
-
-  private:
-    test::TemporaryFolder folder_;
-};
 
 template <class T>
 void append(std::string& bytes, T value, bool big_endian = false) {

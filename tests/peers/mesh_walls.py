@@ -24,6 +24,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import numbers, texts  # noqa: E402
+
 MAKER = Path(__file__).resolve().parents[2] / "scenes" / "meshes" / "make_meshes.py"
 D, SOLID = 0.003, 2500.0  # m, kg/m3
 STIFFNESS, DAMPING, FRICTION = 2000.0, 4250.0, 0.5  # N/m; 1/s, times the effective mass
@@ -183,11 +186,6 @@ def write_data(path, grains):
             file.write(" ".join([str(i)] + [str(g.get(k, 0)) for k in velocities]) + "\n")
 
 
-def numbers_of(file):
-    with open(file, newline="") as rows:
-        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(rows)]
-
-
 def timed(folder, name, command, **options):
     """Runs a command to its end, and writes the seconds of processor time that it took."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
@@ -263,8 +261,7 @@ def main():
         state = case.lattice(count)
     else:
         rest = grainreel(options.program.resolve(), folder, "rest", case, count, "settle_limit = 2", case.still, 0.2)
-        with open(rest / "final.csv", newline="") as file:
-            state = list(csv.DictReader(file))
+        state = texts(rest / "final.csv")
         state[0]["vz"] = str(-NUDGE)
         with open(folder / "state.csv", "w", newline="") as file:
             table = csv.DictWriter(file, state[0])
@@ -280,13 +277,13 @@ def main():
         return 0
     start = "method = \"file\"\nfile = \"state.csv\""
     run = grainreel(options.program.resolve(), folder, "run", case, count, start, case.flow, until)
-    ours, alike = case.ours(numbers_of(run / "measures.csv")), True
+    ours, alike = case.ours(numbers(run / "measures.csv")), True
     for i, name in enumerate(case.names, 1):
         (a, a_error), (b, b_error) = blocks(ours, case, i), blocks(theirs, case, i)
         off = (a - b) / math.hypot(a_error, b_error)
         alike &= abs(off) <= 3
         print(f"{name}: grainreel {a:.5g} +- {a_error:.2g}, LIGGGHTS {b:.5g} +- {b_error:.2g}; {off:+.1f} standard errors")
-    grains = [(count - row.get("outflow_kg", 0) / grain_mass(),) for row in numbers_of(run / "measures.csv")]
+    grains = [(count - row.get("outflow_kg", 0) / grain_mass(),) for row in numbers(run / "measures.csv")]
     our_speed = speed(folder, "run", grains, round(until / STEP))
     print(f"grain-steps a second of processor time: grainreel {our_speed / 1e6:.2f} million, "
           f"LIGGGHTS {their_speed / 1e6:.2f} million; {our_speed / their_speed:.1f} times")

@@ -14,10 +14,12 @@ Waves shorter than two columns are left out.
 """
 import argparse
 import math
+import sys
 import tomllib
 from pathlib import Path
 
-from fields import Fields
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from fields import Fields  # noqa: E402
 
 
 def lower_face(places, radii, floor, width, columns):

@@ -13,7 +13,8 @@ import math
 import sys
 from pathlib import Path
 
-from fields import Fields
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from fields import Fields  # noqa: E402
 
 
 def middle(fields, name, start, width):

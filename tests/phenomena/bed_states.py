@@ -70,16 +70,12 @@ CONDENSED = 0.4  # two thirds of random packing
 
 def main():
     import argparse
-    import csv
+    import sys
     from pathlib import Path
 
-    from check import name_of
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
     from fields import Fields
-
-    class Finished:
-        def __init__(self, folder):
-            with open(folder / "measures.csv", newline="") as file:
-                self.rows = [{name_of(head): float(value) for head, value in row.items()} for row in csv.DictReader(file)]
+    from runs import Measures
 
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("runs", type=Path, nargs="+", metavar="RUN")
@@ -87,7 +83,7 @@ def main():
     options = parser.parse_args()
     print("grains,coherence,least_expansion,most_expansion,least_solid,most_solid,densest_slice,state")
     for folder in options.runs:
-        run, trajectory = Finished(folder), Fields(folder / "trajectory.nc")
+        run, trajectory = Measures(folder), Fields(folder / "trajectory.nc")
         coherent = coherence(run, 1)
         expansion, solid = over_the_cycle(run, "bed_expansion", 1), over_the_cycle(run, "bed_solid_fraction", 1)
         cycle = profiles(trajectory, 0.002, floor_area(folder), 1)

@@ -9,8 +9,6 @@ switched off, and its number must lie outside of that range. So a check that can
 all hold, 1 one does not, 2 a mistake.
 """
 import argparse
-import csv
-import math
 import os
 import subprocess
 import sys
@@ -18,17 +16,12 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from checks import CHECKS
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
+from checks import CHECKS  # noqa: E402
+from runs import Measures  # noqa: E402
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
-
-
-UNITS = ("_m", "_J", "_s", "_kg", "_kg/s", "_N", "_N.m", "_Hz")
-
-
-def name_of(head):
-    """The name of a column, without its unit."""
-    return next((head[: -len(unit)] for unit in UNITS if head.endswith(unit)), head)
 
 
 def processor_seconds(command):
@@ -41,29 +34,16 @@ def processor_seconds(command):
     return usage.ru_utime + usage.ru_stime
 
 
-class Run:
-    """The rows of a run's measures.csv, and its folder."""
+class Run(Measures):
+    """A scene that was run here, and what it cost."""
 
     def __init__(self, program, scene, settings, folder):
         command = [program, "movie", str(SCENES / f"{scene}.toml"), "--no-film", "--quiet", "--threads", "1",
                    "--out", str(folder), "--set", "output.trajectory=false"]
         for setting in settings:
             command += ["--set", setting]
-        self.folder, self.seconds = folder, processor_seconds(command)
-        with open(folder / "measures.csv", newline="") as file:
-            self.rows = [{name_of(head): float(value) for head, value in row.items()} for row in csv.DictReader(file)]
-
-    def values(self, column, after=0.0, until=math.inf):
-        """The numbers of a column from `after` to `until` seconds, without gaps."""
-        values = [row[column] for row in self.rows if after <= row["time"] <= until]
-        return [value for value in values if not math.isnan(value)]
-
-    def mean(self, column, after=0.0, until=math.inf):
-        values = self.values(column, after, until)
-        return sum(values) / len(values) if values else math.nan
-
-    def end(self, column):
-        return self.rows[-1][column]
+        self.seconds = processor_seconds(command)
+        super().__init__(folder)
 
 
 def measured(check, program, folder, control):

@@ -4,13 +4,16 @@ docs/phenomena has the numbers of the longer studies, and what is published. Ran
 from none, and a sign from the other one.
 """
 import math
+import tomllib
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Callable
 
 from bed_states import coherence, over_the_cycle
 from end_state import mean_of, share_of
 from fields import Fields
 from layer_pattern import Pattern
+from rates import change, constant_of_hole, rate_kept
 
 DRAFT = "run.accuracy=draft"
 
@@ -48,6 +51,13 @@ ON_EARTH = ("gravity=9.81", "drive.frequency=12 Hz", "run.duration=2 s", DRAFT)
 ON_THE_MOON = ("run.duration=4.922 s", DRAFT)
 
 
+def variant(study, name):
+    """What a variant of a study of scenes/studies/controls sets."""
+    file = Path(__file__).resolve().parents[2] / "scenes" / "studies" / "controls" / f"{study}.toml"
+    variants = tomllib.loads(file.read_text(encoding="utf-8"))["variant"]
+    return next(one["set"] for one in variants if one["name"] == name)
+
+
 def height_in_diameters(run, after):
     """Mean height of the grains' centres above the floor; they have 2 mm."""
     return run.mean("grains_height", after) / 0.002
@@ -70,26 +80,9 @@ def discharge_time(run):
     return run.end("emptied") - 0.3
 
 
-def rate_kept(run):
-    """Rate while 65 to 80 % of the outflow leaves, over that while 5 to 20 % does."""
-    rows = [(row["time"], row["outflow"]) for row in run.rows]
-
-    def when(share):
-        return next(time for time, mass in rows if mass >= share * rows[-1][1])
-
-    return (when(0.2) - when(0.05)) / (when(0.8) - when(0.65))
-
-
-def slope(run, column, after, until):
-    """Change of a column over time, from the first to the last row between two times."""
-    rows = [row for row in run.rows if after <= row["time"] <= until]
-    return (rows[-1][column] - rows[0][column]) / (rows[-1]["time"] - rows[0]["time"])
-
-
-def beverloo_constant(run):
+def hole_constant(run):
     """C of W = C rho_b sqrt(g) (D - 1.4 d)^2.5, with the density of a solid fraction of 0.6."""
-    density, orifice, diameter = 0.6 * 2500, 0.036, 0.004
-    return slope(run, "outflow", 0.25, 0.55) / (density * math.sqrt(9.81) * (orifice - 1.4 * diameter) ** 2.5)
+    return constant_of_hole(change(run, "outflow", 0.25, 0.55), orifice=0.036, diameter=0.004, density=0.6 * 2500)
 
 
 def small_lower_left(run):
@@ -160,7 +153,7 @@ CHECKS = [
         claim="a layer that is thrown high stands in arches (J. Phys. Soc. Jpn. 72, 1390)",
         scene="arching",
         runs=(("run.duration=0.8 s", DRAFT),),
-        control=["drive.g_level=2.5"],
+        control=variant("arching", "seeds, Γ = 2.5"),
         what="root mean square height of the surface, diameters",
         number=lambda run: run.mean("surface_rms", 0.4) / 0.002,
         least=0.7,
@@ -211,7 +204,7 @@ CHECKS = [
         name="intruder_rises",
         claim="one large grain comes up between rough walls (Knight, Jaeger & Nagel 1993)",
         scene="intruder_rise",
-        control=["contact.wall.friction=0"],
+        control=variant("intruder_rise", "seeds, no friction"),
         what="time until it is at the surface, s",
         number=lambda run: run.end("rise_time"),
         most=6,
@@ -220,7 +213,7 @@ CHECKS = [
         name="surface_waves",
         claim="peaks and valleys change places every period (Melo, Umbanhowar & Swinney 1994)",
         scene="surface_waves",
-        control=["drive.g_level=1.5"],
+        control=variant("surface_waves", "seeds, Γ = 1.5"),
         what="share of the surface that is inverted every period; by chance 0.125",
         number=lambda run: run.mean("surface_half", 1.5),
         least=0.5,
@@ -259,7 +252,7 @@ CHECKS = [
         name="wedge_size",
         claim="in the default film size alone keeps the big grains on top: of one size, the roll mixes them",
         scene="wedge_segregation",
-        control=["species.big.diameter=5.01 mm", "species.big.count=873"],
+        control=variant("wedge_segregation", "equal sizes"),
         what="height of the grains that began below over the others, 20 to 22 s, over the bed's height",
         number=lambda run: run.mean("height_difference", 20),
         least=0.1,
@@ -269,7 +262,7 @@ CHECKS = [
         name="wedge_mixture",
         claim="shaking above Gamma = 1 brings the big grains of a mixture in a sealed wedge up",
         scene="wedge_mixture",
-        control=["drive.g_level=1.2"],
+        control=variant("wedge_mixture", "seeds, Γ = 1.2"),
         what="height of big over small grains from 6 to 7 s, over the bed's height",
         number=lambda run: run.mean("height_difference", 6),
         least=0.0,
@@ -279,7 +272,7 @@ CHECKS = [
         name="wedge_mixture_size",
         claim="in the sealed wedge size keeps the big grains of a mixture above the small ones: of one size, the roll mixes them",
         scene="wedge_mixture",
-        control=["species.big.diameter=4.01 mm", "species.big.count=596"],
+        control=variant("wedge_mixture", "equal sizes"),
         what="height of the grains that began below over the others, 12 to 15 s, over the bed's height",
         number=lambda run: run.mean("height_difference", 12),
         least=0.08,
@@ -299,7 +292,7 @@ CHECKS = [
         name="void_filling",
         claim="big grains rise between walls without friction too, as small ones fill the gaps below (Rosato 1987)",
         scene="void_filling",
-        control=["drive.g_level=1.5"],
+        control=variant("void_filling", "asleep"),
         what="height of big over small grains from 4 to 5 s, over the bed's height",
         number=lambda run: run.mean("height_difference", 4),
         least=-0.34,
@@ -445,7 +438,7 @@ CHECKS = [
         runs=((DRAFT, "run.duration=0.6 s"),),
         control=["contact.friction=0", "contact.wall.friction=0"],
         what="C from 0.25 to 0.55 s",
-        number=beverloo_constant,
+        number=hole_constant,
         least=0.55,
         most=0.65,
     ),
@@ -521,7 +514,7 @@ CHECKS = [
         runs=(("run.duration=0.8 s", DRAFT),),
         control=["drive.direction=[0, 0, 1]"],
         what="speed of the grains from 0.3 to 0.8 s over that of the block, 0.25 m/s",
-        number=lambda run: slope(run, "centre_y", 0.3, 0.8) / thrown_speed(2.5, math.radians(30), 25),
+        number=lambda run: change(run, "centre_y", 0.3, 0.8) / thrown_speed(2.5, math.radians(30), 25),
         least=0.8,
         most=1.1,
     ),

@@ -1,11 +1,11 @@
 """The grains of a run's final.csv."""
-import csv
 import math
+
+from runs import numbers
 
 
 def grains_of(run):
-    with open(run.folder / "final.csv", newline="") as file:
-        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+    return numbers(run.folder / "final.csv")
 
 
 def share_of(run, holds, among=lambda grain: True):

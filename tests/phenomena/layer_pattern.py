@@ -22,7 +22,8 @@ import operator
 import sys
 from pathlib import Path
 
-from fields import Fields
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from fields import Fields  # noqa: E402
 
 
 def surface(places, radii, floor, cells, width, depth, diameter):

@@ -5,9 +5,11 @@ Writes mixture_T.dat for each moment T (s): a row a cell, rows of one height tog
     y (mm), z (mm), share of the big grains in the solid volume, velocity in y and z (mm/s).
 Cells whose solid fraction is below 0.2 have nan. For docs/figures/phenomena/wedge_mixture_fields.gp."""
 import argparse
+import sys
 from pathlib import Path
 
-from fields import Fields
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from fields import Fields  # noqa: E402
 
 LEAST_SOLID = 0.2
 

@@ -8,9 +8,12 @@ intervals. The outflow is cut into parts of equal mass in the order in which the
 species in the mass of each part, and its share in all.
 """
 import argparse
-import csv
 import math
+import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from runs import numbers  # noqa: E402
 
 STUDENT = {2: 12.706, 3: 4.303, 4: 3.182, 5: 2.776, 6: 2.571, 7: 2.447, 8: 2.365, 9: 2.306, 10: 2.262}  # by runs
 LARGE = 2.23  # from 11 runs on, where it falls from 2.228 to 1.96
@@ -18,8 +21,7 @@ LARGE = 2.23  # from 11 runs on, where it falls from 2.228 to 1.96
 
 def shares(run, parts, kind):
     """Of each part, and of all: the densities of the species are equal, so the cube of the radius stands for the mass."""
-    with open(run / "outflow.csv", newline="", encoding="utf-8") as file:
-        grains = [(int(row["type"]), float(row["radius"])**3) for row in csv.DictReader(file)]
+    grains = [(int(row["type"]), row["radius"]**3) for row in numbers(run / "outflow.csv")]
     if len(grains) < parts:
         raise SystemExit(f"{run}: has {len(grains)} grains in its outflow.csv, less than one for each part")
     total, gone = sum(mass for _, mass in grains), 0.0

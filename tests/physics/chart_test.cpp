@@ -3,31 +3,21 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "engine/base/error.hpp"
 #include "engine/lab/chart/accuracy/single_contact.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/small_bed.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
 class ResultTableTest : public testing::Test {
   protected:
-    void SetUp() override {
-        path = std::filesystem::temp_directory_path() /
-               ("grainreel-table-" + std::to_string(::getpid()) + ".csv");
-        std::filesystem::remove(path);
-    }
-    void TearDown() override { std::filesystem::remove(path); }
-    std::string text() const {
-        std::ifstream in(path);
-        std::ostringstream whole;
-        whole << in.rdbuf();
-        return whole.str();
-    }
-    std::filesystem::path path;
+    std::string text() const { return test::text_of(path); }
+    const test::TemporaryFolder folder;
+    const std::filesystem::path path = folder / "table.csv";
 };
 
 TEST_F(ResultTableTest, GoesOnWhereItStopped) {

@@ -11,38 +11,24 @@
 #include "engine/base/error.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kBox = R"(
-[[species]]
-name = "small"
-diameter = "2 mm"
-density = 2500
-[[species]]
-name = "big"
-count = 4
-diameter = { min = "3 mm", max = "4 mm" }
-density = 2500
-[contact]
-stiffness = 700
-[container]
-shape = "box"
-width = "20 mm"
-depth = "20 mm"
-height = "60 mm"
-top = "open"
-[start]
-settle_limit = "0.05 s"
-[run]
-duration = "0.4 s"
-threads = 1
-)";
+const std::string kBox = test::SmallScene()
+                             .beads(0, "small", "2 mm")
+                             .beads(4, "big", "3 mm to 4 mm")
+                             .more("[contact]\nstiffness = 700\n")
+                             .box("20 mm", "20 mm", "60 mm")
+                             .more("top = \"open\"\n[start]\nsettle_limit = \"0.05 s\"\n")
+                             .lasts("0.4 s")
+                             .more("threads = 1\n")
+                             .text();
 constexpr const char* kTwoFeeds = R"(
 [[feed]]
 species = "small"

@@ -8,36 +8,19 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace grainreel {
 namespace {
 
-constexpr const char* kText = R"(
-[[species]]
-name = "small"
-count = 160
-diameter = { min = "1.8 mm", max = "2 mm" }
-density = 2500
-[[species]]
-name = "big"
-count = 80
-diameter = "3 mm"
-density = 2500
-[contact]
-stiffness = 700
-[container]
-shape = "wedge"
-half_angle = "20 deg"
-slant_height = "15 mm"
-half_width = "12 mm"
-depth = "18 mm"
-height = "40 mm"
-[start]
-method = "rain"
-settle_limit = "1 s"
-[run]
-duration = "0.1 s"
-)";
+const std::string kText = test::SmallScene()
+                              .beads(160, "small", "1.8 mm to 2 mm")
+                              .beads(80, "big", "3 mm")
+                              .more("[contact]\nstiffness = 700\n")
+                              .wedge("20 deg", "15 mm", "12 mm", "18 mm", "40 mm")
+                              .more("[start]\nmethod = \"rain\"\nsettle_limit = \"1 s\"\n")
+                              .lasts("0.1 s")
+                              .text();
 
 Scene scene_of(const std::vector<std::string>& sets = {}) {
     return read_scene_text(kText, "rain.toml", with_tested_precision(sets));

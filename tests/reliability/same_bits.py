@@ -22,6 +22,10 @@ import tempfile
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from program import call  # noqa: E402
+from runs import differing  # noqa: E402
+
 TABLES = ("final.csv", "measures.csv", "outflow.csv")
 FILES = (*TABLES, "contacts.nc", "trajectory.nc")
 # Name of a shipped scene, seconds of it, and settings that keep it small.
@@ -65,12 +69,6 @@ def instructions_of(program, env):
     return next((line.split(None, 1)[1] for line in said.splitlines() if line.startswith("vectors")), "?")
 
 
-def call(command, allowed=(0,), env=None):
-    done = subprocess.run(command, capture_output=True, text=True, env=env)
-    if done.returncode not in allowed:
-        sys.exit(f"{' '.join(command)}\n{done.stderr}")
-
-
 def run(program, scene, out, threads=1, stop_after=None, env=None):
     """Runs a scene into a folder; stop_after: seconds until Ctrl-C, after which it is resumed."""
     seconds, settings = SCENES[scene]
@@ -78,7 +76,7 @@ def run(program, scene, out, threads=1, stop_after=None, env=None):
     command = [str(program), "movie", scene, "--no-film", "--out", str(out), "--duration", f"{seconds:g} s", *bare]
     command += [word for setting in settings for word in ("--set", setting)]
     if stop_after is None:
-        call(command, env=env)
+        call(*command, env=env)
         return out
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     time.sleep(stop_after)
@@ -86,7 +84,7 @@ def run(program, scene, out, threads=1, stop_after=None, env=None):
         time.sleep(0.02)
     process.send_signal(signal.SIGINT)
     if process.wait() != 0:
-        call([str(program), "resume", str(out), *bare])
+        call(program, "resume", out, *bare)
     return out
 
 
@@ -94,13 +92,6 @@ def is_past_packing(folder):
     """Whether a run has a row of measures, and so can be stopped and resumed."""
     measures = folder / "measures.csv"
     return measures.exists() and measures.read_bytes().count(b"\n") > 1
-
-
-def differing(first, second, names):
-    """Names of the files that one of two runs has not, or has otherwise."""
-    def content(folder, name):
-        return (folder / name).read_bytes() if (folder / name).exists() else None
-    return [name for name in names if content(first, name) != content(second, name)]
 
 
 def main():
@@ -111,8 +102,14 @@ def main():
     parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
     parser.add_argument("--instructions", action="store_true", help="also as on processors with less")
     job = parser.parse_args()
-    folder = job.out or Path(tempfile.mkdtemp(prefix="same_bits."))
-    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="same_bits.") as temporary:
+        folder = job.out or Path(temporary)
+        folder.mkdir(parents=True, exist_ok=True)
+        sys.exit(0 if all_alike(job, folder) else 1)
+
+
+def all_alike(job, folder):
+    """Makes the runs in a folder and prints the table."""
     variants = [("2 threads", job.program, {"threads": 2}), ("3 threads", job.program, {"threads": 3}),
                 ("resumed", job.program, {"stop_after": 0}),
                 ("C library without FMA", job.program, {"env": {**os.environ, **OTHER_LIBRARY}})]
@@ -142,7 +139,7 @@ def main():
             alike = alike and (not differ or as_before or name.startswith("SSE4"))
             before = made
         print(f"| {scene} | " + " | ".join(cells) + " |", flush=True)
-    sys.exit(0 if alike else 1)
+    return alike
 
 
 if __name__ == "__main__":

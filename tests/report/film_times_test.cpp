@@ -6,7 +6,8 @@
 #include "render/film/sampling/film_frames.hpp"
 #include "render/page/page_film.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -17,25 +18,14 @@ using testing::SizeIs;
 
 // A scene that is shaken at 20 Hz for 1 s. film: the text after [film].
 FilmedScene scene_with(const std::string& film) {
-    const std::string text = R"(
-[[species]]
-name = "beads"
-count = 20
-diameter = "4 mm"
-density = "2.5 g/cm3"
-[container]
-shape = "box"
-width = "30 mm"
-depth = "20 mm"
-height = "40 mm"
-[drive]
-frequency = "20 Hz"
-g_level = 2
-[run]
-duration = "1 s"
-[film]
-rate = 30
-)" + film;
+    const std::string text = test::SmallScene()
+                                 .beads(20, "beads", "4 mm", "2.5 g/cm3")
+                                 .box("30 mm", "20 mm", "40 mm")
+                                 .shaken("20 Hz", "2")
+                                 .lasts("1 s")
+                                 .more("[film]\nrate = 30\n")
+                                 .text() +
+                             film;
     return read_filmed_scene_text(text, "made.toml", {}, measurable_in);
 }
 

@@ -12,7 +12,7 @@
 
 #include "engine/files/fields_file.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

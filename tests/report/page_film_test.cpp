@@ -9,11 +9,13 @@
 #include "render/film/codec/png.hpp"
 #include "render/page/page_film.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
@@ -103,14 +105,14 @@ TEST_F(PageCopyTest, TheRunsCopyIsTaken) {
     EXPECT_EQ(frames, 6);
     const PageFilm film = page_film(scene, here.path());
     EXPECT_EQ(std::string(film.bytes.begin(), film.bytes.end()), test::text_of(here / kPageCopy));
-    EXPECT_THAT(film.note, HasSubstr("a copy of at most 720 lines"));
+    EXPECT_THAT(film.note, tells({"copy", "at most 720 lines"}));
 }
 
 TEST_F(PageCopyTest, ACopyThatIsTooLargeIsNotTaken) {
     copy(FilmFormat::ffv1, 96, 800);
     const PageFilm film = page_film(scene, here.path(), {}, kNoPageProgress, 100);
     EXPECT_TRUE(film.bytes.empty());
-    EXPECT_THAT(film.note, HasSubstr("even a smaller copy is too large"));
+    EXPECT_THAT(film.note, tells({"smaller copy", "too large"}));
 }
 
 TEST_F(PageCopyTest, WhereTheFilmWillDoThereIsNone) {
@@ -162,7 +164,7 @@ TEST_F(PageFilmTest, AFilmThatWasCutOffIsNotTaken) {
     EXPECT_TRUE(film.bytes.empty());
     EXPECT_THAT(film.note, HasSubstr("6 of the 7 pictures"));
     std::filesystem::remove(here / "movie.mp4");
-    EXPECT_THAT(page_film(scene, here.path(), 6).note, HasSubstr("movie.mp4 is not in the run's folder"));
+    EXPECT_THAT(page_film(scene, here.path(), 6).note, tells({"movie.mp4", "not in", "run's folder"}));
 }
 
 TEST_F(PageFilmTest, ThePosterIsAJpegOfAtMost960Pixels) {

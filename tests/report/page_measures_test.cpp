@@ -7,7 +7,7 @@
 #include "render/page/facts/methods.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

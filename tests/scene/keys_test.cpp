@@ -75,7 +75,7 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const MeshScenes files;
     const std::string meshed = exact +
                                "[[exit]]\nlow = [-2, -2, -2]\nhigh = [2, 2, -1]\n[[mesh]]\nfile = \"" +
-                               files.put("plate.stl", plate(0.02)).string() + "\"\n";
+                               files.write("plate.stl", plate(0.02)).string() + "\"\n";
     const std::string turned = meshed + "turn = { axis = [0, 0, 1], rate = 1 }\n";
     const std::string turning = with(wedge_text, "height = \"180 mm\"\n",
                                      "height = \"180 mm\"\nturn = { axis = [1, 0, 0], rate = 1 }\n");
@@ -83,7 +83,7 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     for (TriangleByHand& triangle : shelf)
         for (Vec3& corner : triangle) corner.z() = 0.1;
     const std::string shelved =
-        wedge_text + "[[mesh]]\nfile = \"" + files.put("shelf.stl", shelf).string() + "\"\n";
+        wedge_text + "[[mesh]]\nfile = \"" + files.write("shelf.stl", shelf).string() + "\"\n";
     const std::string cases[] = {wedge_text, box,     locked, motion, from_file, exact,
                                  layers,     fields,  outlet, rough,  fed,       staged,
                                  captioned,  plotted, meshed, turned, turning,   shelved};

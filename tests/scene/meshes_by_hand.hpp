@@ -3,16 +3,16 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 
@@ -60,32 +60,15 @@ inline std::string stl_text(const MeshByHand& mesh) {
     return text + "endsolid\n";
 }
 
-// A folder with scenes and meshes, which is removed at the end.
-class MeshScenes {
+// A folder with scenes and meshes.
+class MeshScenes : public test::TemporaryFolder {
   public:
-    MeshScenes() {
-        std::string name = (std::filesystem::temp_directory_path() / "grainreel-mesh-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw RunError("no temporary folder");
-        path_ = name;
-    }
-    ~MeshScenes() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    MeshScenes(const MeshScenes&) = delete;
-    MeshScenes& operator=(const MeshScenes&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-    std::filesystem::path put(const std::string& name, const std::string& text) const {
-        std::filesystem::create_directories((path_ / name).parent_path());
-        std::ofstream(path_ / name) << text;
-        return path_ / name;
-    }
-    std::filesystem::path put(const std::string& name, const MeshByHand& mesh) const {
-        return put(name, stl_text(mesh));
+    using TemporaryFolder::write;
+    std::filesystem::path write(const std::string& name, const MeshByHand& mesh) const {
+        return write(name, stl_text(mesh));
     }
     Scene read(const std::string& text, const Assignments& sets = {}) const {
-        return read_scene_text(text, path_ / "scene.toml", sets);
+        return read_scene_text(text, path() / "scene.toml", sets);
     }
     // The reader's message for a scene, without the test's folder; "none" if the scene is right.
     std::string complaint(const std::string& text, const Assignments& sets = {}) const {
@@ -93,59 +76,34 @@ class MeshScenes {
             read(text, sets);
         } catch (const UserError& error) {
             std::string what = error.what();
-            const std::string folder = path_.string() + "/";
+            const std::string folder = path().string() + "/";
             for (std::size_t at; (at = what.find(folder)) != std::string::npos;)
                 what.erase(at, folder.size());
             return what;
         }
         return "none";
     }
-
-  private:
-    std::filesystem::path path_;
 };
 
 // A ball above a plate from a file, in the smallest scene that has a mesh.
-inline const std::string ball_on_plate = R"([[species]]
-name = "ball"
-diameter = "10 mm"
-density = 2500
-[contact]
-restitution = 0.8
-friction = 0.3
-[container]
-shape = "none"
-[[mesh]]
-name = "plate"
-file = "plate.stl"
-[[grain]]
-position = [0, 0, "7 mm"]
-[run]
-duration = "0.2 s"
-)";
+inline const std::string ball_on_plate = test::SmallScene()
+                                             .beads(0, "ball", "10 mm")
+                                             .contacts("0.8", "0.3")
+                                             .empty_space()
+                                             .more("[[mesh]]\nname = \"plate\"\nfile = \"plate.stl\"\n")
+                                             .more("[[grain]]\nposition = [0, 0, \"7 mm\"]\n")
+                                             .lasts("0.2 s")
+                                             .text();
 
 // Grains in a vessel from a file.
-inline const std::string in_vessel = R"([[species]]
-name = "small"
-count = 10
-diameter = "5 mm"
-density = 2500
-[[species]]
-name = "big"
-count = 2
-diameter = "10 mm"
-density = 2500
-[contact]
-restitution = 0.8
-friction = 0.3
-[container]
-shape = "mesh"
-mesh = "tank"
-[[mesh]]
-name = "tank"
-file = "tank.stl"
-[run]
-duration = "0.2 s"
-)";
+inline const std::string in_vessel =
+    test::SmallScene()
+        .beads(10, "small", "5 mm")
+        .beads(2, "big", "10 mm")
+        .contacts("0.8", "0.3")
+        .more("[container]\nshape = \"mesh\"\nmesh = \"tank\"\n[[mesh]]\nname = \"tank\"\n")
+        .more("file = \"tank.stl\"\n")
+        .lasts("0.2 s")
+        .text();
 
 }  // namespace grainreel

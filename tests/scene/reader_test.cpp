@@ -5,13 +5,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
 #include "render/scene/film.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -199,14 +199,11 @@ TEST(Reader, MoreSpeciesThanColoursIsAWarning) {
 }
 
 TEST(Reader, StartFileCountsFromTheScenesFolder) {
-    const auto folder = std::filesystem::temp_directory_path() / "grainreel_reader_test";
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / "final.csv") << "x";
-    std::ofstream(folder / "scene.toml")
-        << wedge_text << "[start]\nmethod = \"file\"\nfile = \"./final.csv\"\n";
-    const FilmedScene scene = read_filmed_scene(folder / "scene.toml", {}, measurable_in);
-    EXPECT_EQ(scene.start.file, (folder / "final.csv").string());
-    std::filesystem::remove_all(folder);
+    const test::TemporaryFolder folder;
+    const auto file = folder.write("final.csv", "x");
+    const auto text =
+        folder.write("scene.toml", wedge_text + "[start]\nmethod = \"file\"\nfile = \"./final.csv\"\n");
+    EXPECT_EQ(read_filmed_scene(text, {}, measurable_in).start.file, file.string());
 }
 
 TEST(Reader, DefaultFilmIsSlowAtBothEndsAndLockedBetween) {

@@ -11,9 +11,13 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
+
+using test::tells;
 
 const std::string later_text = wedge_text + R"([[drive.stage]]
 from = "0.5 s"
@@ -48,25 +52,13 @@ Assignments until(const std::string& duration) {
 
 // If all grains of a species come by feeds, the later ones may be left out, but not all of them.
 TEST(Shorten, LeavesOutALaterFeedOfASpeciesThatAnotherOneGives) {
-    const std::string poured = R"(
-[[species]]
-name = "sand"
-diameter = "3 mm"
-density = 2500
-[container]
-shape = "box"
-width = "60 mm"
-depth = "30 mm"
-height = "60 mm"
-[run]
-duration = "2 s"
-[[feed]]
-rate = 100
-until = "0.5 s"
-[[feed]]
-rate = 100
-from = "1.2 s"
-)";
+    const std::string poured = test::SmallScene()
+                                   .beads(0, "sand", "3 mm")
+                                   .box("60 mm", "30 mm", "60 mm")
+                                   .lasts("2 s")
+                                   .more("[[feed]]\nrate = 100\nuntil = \"0.5 s\"\n[[feed]]\nrate = 100\n")
+                                   .more("from = \"1.2 s\"\n")
+                                   .text();
     const FilmedScene scene = read_text(poured, {{"run.duration=1 s", "--duration"}});
     ASSERT_EQ(scene.feeds.size(), 1u);
     EXPECT_EQ(scene.feeds.front().from, 0);
@@ -76,7 +68,7 @@ from = "1.2 s"
         read_text(late, {{"run.duration=1 s", "--duration"}});
         FAIL() << "a species without grains";
     } catch (const UserError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("'from' is 1.1 s, but the run ends at 1 s"));
+        EXPECT_THAT(error.what(), tells({"'from'", "1.1 s", "ends at 1 s"}));
     }
 }
 

@@ -10,10 +10,13 @@
 #include "engine/base/error.hpp"
 #include "engine/plan/plan.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
+using test::tells_only;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -38,40 +41,33 @@ std::string complaint(const Assignments& sets, const std::string& text = wedge_t
 }
 
 TEST(Slips, OfUnits) {
-    EXPECT_EQ(first_warning({"species.small.density=7.8"}),
-              "--set species.small.density: a density of 7.8 kg/m3 is less than foam has; a number without a "
-              "unit is in kg/m3: did you mean \"7.8 g/cm3\"?");
+    EXPECT_THAT(first_warning({"species.small.density=7.8"}),
+                tells_only({"--set species.small.density", "7.8 kg/m3", "less than foam", "without a unit",
+                            "\"7.8 g/cm3\"?"}));
     EXPECT_THAT(warnings({"species.small.density=7800000"}),
-                HasSubstr("a density of 7.8e+06 kg/m3 is more than "
-                          "any solid has; a number without a unit "
-                          "is in kg/m3\n"));
-    EXPECT_THAT(warnings({"species.small.density=2.5e6"}), HasSubstr("is more than any solid has"));
-    EXPECT_THAT(warnings({"species.small.mass=0.16 kg"}), HasSubstr("this mass makes a density of"));
-    EXPECT_THAT(warnings({"species.small.diameter=5 µm"}),
-                HasSubstr("grains of 5e-06 m stick to each other"));
+                tells({"7.8e+06 kg/m3", "any solid", "in kg/m3"}));
+    EXPECT_THAT(warnings({"species.small.density=2.5e6"}), HasSubstr("more than any solid"));
+    EXPECT_THAT(warnings({"species.small.mass=0.16 kg"}), tells({"mass", "density"}));
+    EXPECT_THAT(warnings({"species.small.diameter=5 µm"}), tells({"5e-06 m", "stick"}));
     const Assignments in_mm{"species.small.diameter=5",  "species.big.diameter=10",
                             "container.slant_height=70", "container.half_width=55",
                             "container.depth=45",        "container.height=180"};
     EXPECT_THAT(warnings(in_mm),
                 AllOf(HasSubstr("did you mean \"5 mm\"?"), HasSubstr("did you mean \"10 mm\"?"),
                       HasSubstr("did you mean \"180 mm\"?")));
-    EXPECT_THAT(warnings({"gravity=981"}),
-                HasSubstr("--set gravity: a gravity of 981 m/s2 is 100 times that of "
-                          "the Earth; a number without a unit is in m/s2: did you "
-                          "mean \"981 cm/s2\"?"));
+    EXPECT_THAT(warnings({"gravity=981"}), tells({"--set gravity", "981 m/s2", "100 times", "Earth",
+                                                  "without a unit", "\"981 cm/s2\"?"}));
 }
 
 TEST(Slips, OfTheDrive) {
-    EXPECT_EQ(
-        first_warning({"drive.amplitude=3"}),
-        "--set drive.amplitude: an amplitude of 3 m is more than the height of the container, 0.18 m; a "
-        "number without a unit is in m: did you mean \"3 mm\"?");
+    EXPECT_THAT(first_warning({"drive.amplitude=3"}),
+                tells_only({"--set drive.amplitude", "3 m", "0.18 m", "without a unit", "\"3 mm\"?"}));
     const double omega = 2 * std::numbers::pi * 0.1;
     EXPECT_THAT(
         warnings({"drive.frequency=0.1"}),
         AllOf(HasSubstr(fmt::format("an amplitude of {:.4g} m is more than the height of the container",
                                     3 * 10 / (omega * omega))),
-              HasSubstr("one period of 10 s is longer than the run of 2 s; raise the frequency")));
+              tells({"10 s", "longer", "2 s", "raise the frequency"})));
     EXPECT_THAT(warnings({"drive.frequency=20 kHz"}), HasSubstr("did you mean \"20 Hz\"?"));
     const double shaken = 2 * std::numbers::pi * 20;
     EXPECT_THAT(warnings({"drive.amplitude=10 cm"}),
@@ -80,24 +76,18 @@ TEST(Slips, OfTheDrive) {
 }
 
 TEST(Slips, OfFriction) {
-    EXPECT_EQ(
-        warnings({"contact.friction=50"}),
-        "--set contact.friction: a friction of 50 is more than materials have (glass 0.2 to 0.5, rubber "
-        "about 1); did you mean 0.5? inf is for grains that never slip\n");
+    EXPECT_THAT(warnings({"contact.friction=50"}),
+                tells_only({"--set contact.friction", "friction of 50", "more than", "0.5?", "inf"}));
     EXPECT_EQ(warnings({"contact.friction=inf"}), "");
-    EXPECT_THAT(warnings({"contact.rolling_friction=10"}),
-                HasSubstr("a rolling friction of 10 is more than"));
+    EXPECT_THAT(warnings({"contact.rolling_friction=10"}), tells({"rolling friction", "10", "more than"}));
 }
 
 TEST(Slips, OfGravityAndTheFloor) {
-    EXPECT_EQ(
-        warnings({"gravity=[0, 0, 9.81]"}),
-        "--set gravity: gravity points up, with 9.81 m/s2 along z: the bed will lie under the lid; a number "
-        "alone is downwards\n");
-    EXPECT_EQ(
-        complaint({"gravity=[0, 0, 9.81]", "container.top=open"}),
-        "--set gravity: 'gravity' points up, with 9.81 m/s2 along z, and the container is open above, so "
-        "that the grains fall out of it; write gravity = 9.81, which is downwards, or top = \"lid\"");
+    EXPECT_THAT(warnings({"gravity=[0, 0, 9.81]"}),
+                tells_only({"--set gravity", "points up", "9.81 m/s2", "lid", "downwards"}));
+    EXPECT_THAT(complaint({"gravity=[0, 0, 9.81]", "container.top=open"}),
+                tells_only({"--set gravity", "'gravity'", "points up", "9.81 m/s2", "fall out",
+                            "gravity = 9.81", "\"lid\""}));
     // The slants take 70 tan 20 deg = 25.478 mm on either side.
     const double floor = 2 * (0.027 - 0.07 * std::tan(20 * std::numbers::pi / 180));
     EXPECT_EQ(
@@ -109,12 +99,10 @@ TEST(Slips, OfGravityAndTheFloor) {
 }
 
 TEST(Slips, OfNames) {
-    EXPECT_EQ(complaint({"species[1].name=\"small \""}),
-              "--set species[1].name: 'name' \"small \" is taken; choose another");
-    EXPECT_EQ(
-        complaint({"species[0].name=1,5 mm", "species[1].name=1\"5 mm"}),
-        "test.toml:3:3: the names of the species give measures.csv the column \"1_5 mm_centre_x_m\" twice; "
-        "choose names that differ in letters");
+    EXPECT_THAT(complaint({"species[1].name=\"small \""}),
+                tells_only({"--set species[1].name", "'name'", "\"small \"", "taken", "another"}));
+    EXPECT_THAT(complaint({"species[0].name=1,5 mm", "species[1].name=1\"5 mm"}),
+                tells_only({"test.toml:3:3", "\"1_5 mm_centre_x_m\"", "twice", "choose names"}));
 }
 
 TEST(Slips, PlausibleScenesHaveNone) {

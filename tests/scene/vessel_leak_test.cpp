@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 std::optional<Vec3> leak_in(const MeshByHand& mesh, double diameter = 0.002) {
     const MeshScenes files;
-    LoadedMesh loaded = load_mesh(files.put("vessel.stl", mesh));
+    LoadedMesh loaded = load_mesh(files.write("vessel.stl", mesh));
     const auto surface =
         std::make_shared<const Surface>(std::move(loaded.mesh), std::move(loaded.facts), "vessel");
     return leak_of(*surface, EnclosedRoom(surface), diameter);

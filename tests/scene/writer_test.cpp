@@ -136,8 +136,8 @@ TEST(Writer, ResolvedScenesReadBackBitByBit) {
 // The scenes are in a folder with the copies that they name.
 TEST(Writer, ScenesWithMeshesReadBackBitByBit) {
     const MeshScenes files;
-    files.put("meshes/plate.stl", plate(0.2));
-    files.put("meshes/tank.stl", box_of_sheets(0.1, 0.08));
+    files.write("meshes/plate.stl", plate(0.2));
+    files.write("meshes/tank.stl", box_of_sheets(0.1, 0.08));
     const auto read = [&](std::string text) {
         for (const char* name : {"plate.stl", "tank.stl"})
             if (const auto at = text.find(name); at != std::string::npos) text.insert(at, "meshes/");

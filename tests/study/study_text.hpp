@@ -4,8 +4,8 @@
 #include <string>
 
 #include "render/app/study/file/read_study.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 

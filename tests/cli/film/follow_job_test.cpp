@@ -12,7 +12,9 @@
 
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -25,34 +27,17 @@ using testing::Not;
 using Words = std::vector<std::string>;
 
 // 21 pictures, one each 100 steps.
-constexpr const char* falling = R"(title = "A ball"
-[[species]]
-name = "ball"
-diameter = "4 mm"
-density = 2500
-[contact]
-law = "spring-dashpot"
-friction_law = "linear-spring"
-stiffness = 1000
-restitution = 0.7
-[container]
-shape = "box"
-width = "20 mm"
-depth = "20 mm"
-height = "400 mm"
-[start]
-method = "grains"
-[[grain]]
-position = [0, 0, 0.3]
-[run]
-duration = "0.2 s"
-step = 1e-4
-[film]
-size = "160x120"
-rate = 25
-[[film.segment]]
-playback = 0.25
-)";
+const std::string falling =
+    SmallScene("title = \"A ball\"\n")
+        .beads(0, "ball")
+        .more("[contact]\nlaw = \"spring-dashpot\"\nfriction_law = \"linear-spring\"\n")
+        .more("stiffness = 1000\nrestitution = 0.7\n")
+        .box("20 mm", "20 mm", "400 mm")
+        .more("[start]\nmethod = \"grains\"\n[[grain]]\nposition = [0, 0, 0.3]\n")
+        .lasts("0.2 s")
+        .more("step = 1e-4\n[film]\nsize = \"160x120\"\nrate = 25\n")
+        .more("[[film.segment]]\nplayback = 0.25\n")
+        .text();
 
 constexpr int kPictures = 21, kStepsAPicture = 100;
 
@@ -147,7 +132,7 @@ TEST_F(FollowedJob, EndsWithTheJobThatEndsEarlyInGoodOrder) {
     job_ends(0);
     const Ended ended = following.wait();
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("LAMMPS has come to 0.05 s of 0.2 s"));
+    EXPECT_THAT(ended.err, tells({"LAMMPS", "0.05 s of 0.2 s"}));
     EXPECT_EQ(drawn(), 6);
 }
 
@@ -161,7 +146,7 @@ TEST_F(FollowedJob, SaysWhyTheJobDied) {
     job_ends(1, "LAMMPS (29 Sep 2021)\nERROR: Lost atoms: original 1 current 0 (../thermo.cpp:438)\n");
     const Ended ended = following.wait();
     EXPECT_EQ(ended.status, 1) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("LAMMPS ended: in.lammps: ERROR: Lost atoms: original 1 current 0"));
+    EXPECT_THAT(ended.err, tells({"LAMMPS ended", "in.lammps", "Lost atoms"}));
     EXPECT_THAT(ended.err, HasSubstr("0.05 s of 0.2 s"));
     EXPECT_EQ(drawn(), 6);
     EXPECT_EQ(status_of_film(), "failed");
@@ -187,7 +172,7 @@ TEST_F(FollowedJob, WaitsForAJobThatGoesOn) {
         job_ends(0, "", "node 2 2 continue");
         const Ended ended = following.wait();
         EXPECT_EQ(ended.status, 0) << ended.err;
-        EXPECT_THAT(ended.err, HasSubstr("job: the job has ended before; if none goes on"));
+        EXPECT_THAT(ended.err, tells({"job: ", "ended before", "none goes on"}));
         EXPECT_THAT(ended.err, HasSubstr("0.19 s of 0.2 s"));
         EXPECT_EQ(drawn(), kPictures - 1);
     }
@@ -203,7 +188,7 @@ TEST_F(FollowedJob, AJobThatBeginsAgainFromTheStartEndsTheFilm) {
     job_begins("node 2 2 start");
     const Ended ended = following.wait();
     EXPECT_EQ(ended.status, 1) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("a new job began from the start"));
+    EXPECT_THAT(ended.err, tells({"new job", "from the start"}));
     EXPECT_EQ(drawn(), 8);
 }
 
@@ -211,7 +196,7 @@ TEST_F(FollowedJob, EndsWhereNothingNewComes) {
     add(0, 6);
     const Ended ended = program(follow("1"));
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("nothing new has come for 1 s"));
+    EXPECT_THAT(ended.err, tells({"nothing new", "1 s"}));
     EXPECT_EQ(drawn(), 6);
 }
 
@@ -233,7 +218,7 @@ TEST_F(FollowedJob, AGrainThatIsLostEndsTheFilmWithItsStep) {
     add(6, 1, 0, true);
     const Ended ended = program(follow("300"));
     EXPECT_EQ(ended.status, 1) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("step 600: grain 0 is missing"));
+    EXPECT_THAT(ended.err, tells({"step 600", "grain 0", "missing"}));
     EXPECT_EQ(drawn(), 6);
 }
 
@@ -250,7 +235,7 @@ TEST_F(FollowedJob, EnergyFromNowhereIsAnErrorAsInOurRuns) {
     add(6, 1, 0.1);
     const Ended ended = program({"render", "job", "--out", "film"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("step 600 (0.06 s): the grains gained"));
+    EXPECT_THAT(ended.err, tells({"step 600 (0.06 s)", "gained"}));
     EXPECT_THAT(ended.err, HasSubstr("grain 0 (ball)"));
     EXPECT_EQ(drawn(), 6);
 }
@@ -289,7 +274,7 @@ TEST_F(FollowedJob, IsNotAskedForWhatNoDumpHas) {
     }
     const Ended between = program({"inspect", "job", "--at", "0.0512s", "--where", "z > 0 m"});
     EXPECT_EQ(between.status, 0) << between.err;
-    EXPECT_THAT(between.out, HasSubstr("0.0512 s was not kept; this is the nearest kept moment"));
+    EXPECT_THAT(between.out, tells({"0.0512 s", "not kept", "nearest kept moment"}));
 }
 
 TEST_F(FollowedJob, IsExportedBeforeItWasDrawn) {
@@ -320,8 +305,7 @@ TEST_F(FollowedJob, EachVerbSaysWhyTheRunIsShort) {
                                {"inspect", "job"}}) {
         const Ended ended = program(words);
         EXPECT_EQ(ended.status, 0) << ended.err;
-        EXPECT_THAT(ended.err, HasSubstr("LAMMPS was asked to end by a signal (Ctrl-C, scancel or a time "
-                                         "limit); it has come to 0.05 s of "));
+        EXPECT_THAT(ended.err, tells({"LAMMPS", "signal", "Ctrl-C", "0.05 s of"}));
     }
 }
 
@@ -338,10 +322,8 @@ TEST_F(FollowedJob, TheEnginesErrorIsTheLastThatRunShSays) {
     const std::string command = fmt::format(
         "cd '{}' && PATH=\"$PWD/bin:$PATH\" ENGINE=true sh job/run.sh 2> said", here.path().string());
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
-    EXPECT_EQ(text_of(here / "said"),
-              "run.sh: LAMMPS ended with 1: in.lammps:3: ERROR: Unrecognized (force.cpp:278) (at `pair_style "
-              "nonsense "
-              "3`); all that it printed is in out.lammps\n");
+    EXPECT_THAT(text_of(here / "said"),
+                tells_only({"run.sh", "LAMMPS ended", "in.lammps:3", "pair_style nonsense 3", "out.lammps"}));
     EXPECT_THAT(text_of(here / "job/during.status"),
                 testing::MatchesRegex("running\njob .* [0-9]+ [0-9]+ start\n"));
     EXPECT_THAT(text_of(here / "job/job.status"), testing::MatchesRegex("1\njob .* [0-9]+ [0-9]+ start\n"));
@@ -386,7 +368,7 @@ TEST_F(FollowedJob, IsToldToRunFirst) {
     for (const char* verb : {"inspect", "render"}) {
         const Ended ended = program({verb, "job"});
         EXPECT_EQ(ended.status, 2) << ended.err;
-        EXPECT_THAT(ended.err, HasSubstr("LAMMPS has not run yet; run it: sh job/run.sh"));
+        EXPECT_THAT(ended.err, tells({"LAMMPS", "not run yet", "sh job/run.sh"}));
     }
 }
 

@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -50,7 +51,7 @@ TEST_F(GlChoice, TheOptionGoesBeforeTheEnvironment) {
 TEST_F(GlChoice, AnUnknownOneIsRefused) {
     for (const Ended& ended : {movie({"--gl", "vulkan"}), movie({}, {"GRAINREEL_GL=vulkan"})}) {
         EXPECT_EQ(ended.status, 2);
-        EXPECT_THAT(ended.err, HasSubstr("vulkan: no such maker of OpenGL contexts; choose osmesa or egl"));
+        EXPECT_THAT(ended.err, tells({"vulkan", "no such maker", "osmesa or egl"}));
     }
     EXPECT_FALSE(fs::exists(here / "run"));
 }
@@ -70,8 +71,7 @@ TEST_F(GlChoice, WithoutOSMesaItIsTheSoftwareDriverOfEgl) {
 TEST_F(GlChoice, WithoutEglTheRemedyIsNamed) {
     const Ended ended = movie({"--gl", "egl"}, {without({"libEGL.so.1"})});
     EXPECT_EQ(ended.status, 1);
-    EXPECT_THAT(ended.err,
-                HasSubstr("libEGL.so.1 cannot be opened; install Debian's libegl1 and libegl-mesa0"));
+    EXPECT_THAT(ended.err, tells({"libEGL.so.1", "cannot be opened", "libegl1", "libegl-mesa0"}));
 }
 
 TEST_F(GlChoice, WithoutEitherBothAreNamed) {

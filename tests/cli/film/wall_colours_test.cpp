@@ -5,8 +5,9 @@
 
 #include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -91,7 +92,7 @@ TEST_F(WallColourFilm, WantsMeshesAndARangeThatRises) {
     write_small_scene(here.path());
     const Ended none = program({"check", "fifty.toml", "--set", "film.walls.colour=pressure"});
     EXPECT_EQ(none.status, 2);
-    EXPECT_THAT(none.err, HasSubstr("film.walls.colour: 'colour' colours meshes, and the scene has none"));
+    EXPECT_THAT(none.err, tells({"film.walls.colour", "'colour'", "meshes", "none"}));
     const Ended falls = program({"check", "plate.toml", "--set", "film.walls.colour=pressure", "--set",
                                  "film.walls.range=[\"2 kPa\", \"1 kPa\"]"});
     EXPECT_EQ(falls.status, 2);

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 

@@ -12,7 +12,7 @@
 #include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "tests/cli/foreign/foreign_bed.hpp"
-#include "tests/cli/small_scene.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace grainreel {
 namespace {

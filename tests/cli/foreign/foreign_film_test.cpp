@@ -13,6 +13,8 @@
 #include "engine/state/pose.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/foreign/foreign_bed.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
@@ -71,7 +73,7 @@ TEST_F(ForeignFilm, AComparisonAtAMomentIsForPrintToo) {
     EXPECT_EQ(width, static_cast<std::uint32_t>(std::lround(85 / 25.4 * 300)));
     const Ended film = timed({"compare", "bed.dump", "bed.dump", "--dpi", "300", "--out", "film"});
     EXPECT_EQ(film.status, 2);
-    EXPECT_THAT(film.err, HasSubstr("--dpi: is for one picture; add --at"));
+    EXPECT_THAT(film.err, tells({"--dpi", "one picture", "add --at"}));
 }
 
 // All grains rise at 0.1 m/s.
@@ -96,7 +98,7 @@ TEST_F(ForeignFilm, ColoursHaveTheirRangeFromTheFrames) {
     }
     const Ended none = imported({"--set", "film.colour.by=spin", "--out", "spin.png"});
     EXPECT_EQ(none.status, 2);
-    EXPECT_THAT(none.err, HasSubstr("the files say nothing of \"spin\""));
+    EXPECT_THAT(none.err, HasSubstr("say nothing of \"spin\""));
 }
 
 TEST_F(ForeignFilm, AWallIsWhereItsFilesHaveIt) {
@@ -119,23 +121,13 @@ TEST_F(ForeignFilm, AWallIsWhereItsFilesHaveIt) {
 
 // The container of a scene shakes by 1 mm at 25 Hz; the four frames lie a quarter of a period apart.
 TEST_F(ForeignFilm, AContainerOfOursMovesByItsDrive) {
-    write_text(here / "box.toml", R"([[species]]
-name = "any"
-count = 1
-diameter = "6 mm"
-density = "2.5 g/cm3"
-[container]
-shape = "box"
-width = "60 mm"
-depth = "60 mm"
-height = "60 mm"
-[drive]
-frequency = "25 Hz"
-amplitude = "1 mm"
-ramp = 0
-[run]
-duration = "1 s"
-)");
+    write_text(here / "box.toml",
+               SmallScene()
+                   .beads(1, "any", "6 mm", "2.5 g/cm3")
+                   .box("60 mm", "60 mm", "60 mm")
+                   .more("[drive]\nfrequency = \"25 Hz\"\namplitude = \"1 mm\"\nramp = 0\n")
+                   .lasts("1 s")
+                   .text());
     const Ended ended = timed({"render", "bed.dump", "--container", "box.toml", "--at", "0.01", "--size",
                                "160x120", "--out", "shaken.png"});
     ASSERT_EQ(ended.status, 0) << ended.err;
@@ -210,7 +202,7 @@ TEST_F(ForeignFilm, RefusesToFollowARunOfOurs) {
     fs::rename(import(), here / "ours");
     const Ended ended = program({"render", "ours", "--follow"});
     EXPECT_EQ(ended.status, 2);
-    EXPECT_THAT(ended.err, HasSubstr("--follow: is for files of other programs"));
+    EXPECT_THAT(ended.err, tells({"--follow", "other programs"}));
 }
 
 }  // namespace

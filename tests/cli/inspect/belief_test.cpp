@@ -7,8 +7,9 @@
 
 #include "engine/start/restart.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -61,7 +62,7 @@ TEST_F(Belief, ACheckpointOfAnotherSeedOrSceneIsPassedOver) {
         fs::copy(here / other / "checkpoints/000000000000.grs", foreign);
         const Ended renamed = ask(question);
         EXPECT_EQ(renamed.out, before.out);
-        EXPECT_THAT(renamed.err, HasSubstr("000000000001.grs: is of another moment, step 0"));
+        EXPECT_THAT(renamed.err, tells({"000000000001.grs", "another moment", "step 0"}));
         fs::remove(foreign);
         // If the foreign checkpoint is the only one, nothing can be restored, and the run cannot continue.
         fs::rename(here / "run/checkpoints", here / "ring");
@@ -70,7 +71,7 @@ TEST_F(Belief, ACheckpointOfAnotherSeedOrSceneIsPassedOver) {
         fs::copy(here / other / "checkpoints/000000000000.grs", first);
         const Ended alone = ask(question);
         EXPECT_EQ(alone.status, 2) << alone.out;
-        EXPECT_THAT(alone.err, HasSubstr("000000000000.grs: is of another run: '"));
+        EXPECT_THAT(alone.err, tells({"000000000000.grs", "another run", "'"}));
         EXPECT_EQ(run({"resume", "run", "--for", "0.1 s"}).status, 2) << "as resume refuses it";
         fs::remove_all(here / "run/checkpoints");
         fs::rename(here / "ring", here / "run/checkpoints");
@@ -82,7 +83,7 @@ TEST_F(Belief, ACheckpointOfAnotherSeedOrSceneIsPassedOver) {
     fs::rename(here / "run/checkpoint.grs", here / "last.grs");
     fs::copy(here / "longer/checkpoint.grs", here / "run/checkpoint.grs");
     const Ended last = ask({"--json"});
-    EXPECT_THAT(last.err, HasSubstr("run/checkpoint.grs: is of another run: 'run.seed' is 7 there, but "));
+    EXPECT_THAT(last.err, tells({"run/checkpoint.grs", "another run", "'run.seed' is 7 there"}));
     EXPECT_EQ(nlohmann::json::parse(last.out)["moment"]["step"],
               nlohmann::json::parse(last_before.out)["moment"]["step"]);
 }
@@ -126,7 +127,7 @@ TEST_F(Belief, ACheckpointFromBeforeAnAcceptedChangeIsOfTheRun) {
     fs::copy(here / "strange/checkpoints/000000000000.grs", here / "run/checkpoints/000000000000.grs");
     const Ended strange = ask(question);
     EXPECT_EQ(strange.status, 2);
-    EXPECT_THAT(strange.err, HasSubstr("friction' is 0.3 there, but 0.2 in scene.toml"));
+    EXPECT_THAT(strange.err, tells({"friction' is 0.3 there", "0.2", "scene.toml"}));
 }
 
 TEST_F(Belief, ContactsThatWereCutOffAreBroughtBack) {
@@ -169,13 +170,12 @@ TEST_F(Belief, ADamagedFrameIsBroughtBackAndSaidSo) {
     write_text(here / "run/trajectory.nc", damaged);
     const Ended ended = ask(question);
     ASSERT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("warning: run/trajectory.nc: frame 5 (the first is 0) is damaged"));
+    EXPECT_THAT(ended.err, tells({"warning: run/trajectory.nc", "frame 5", "damaged"}));
     // Restored velocities are not rounded, as those that were kept are.
     EXPECT_EQ(nlohmann::json::parse(ended.out)["tables"]["count"],
               nlohmann::json::parse(before.out)["tables"]["count"]);
     cut("trajectory.nc", 0.99);
-    EXPECT_THAT(ask(question).err,
-                HasSubstr("warning: run/trajectory.nc: frame 5 (the first is 0) is not whole"));
+    EXPECT_THAT(ask(question).err, tells({"warning: run/trajectory.nc", "frame 5", "not whole"}));
 }
 
 // The other run differs only in the seed, so its film has pictures at the same moments.
@@ -287,7 +287,7 @@ TEST_F(Belief, AFinalTableThatWasCutAtARowsEndIsRefused) {
     write_text(here / "run/final.csv", rows(44));
     const Ended alone = run({"inspect", "run/final.csv"});
     EXPECT_EQ(alone.status, 2);
-    EXPECT_THAT(alone.err, HasSubstr("has 44 grains, but the scene.toml beside it has 50"));
+    EXPECT_THAT(alone.err, tells({"44 grains", "scene.toml", "50"}));
     write_text(here / "run/final.csv", whole);
     EXPECT_EQ(run({"inspect", "run/final.csv"}).status, 0);
     fs::rename(here / "run.json", here / "run/run.json");

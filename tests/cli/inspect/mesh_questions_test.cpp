@@ -12,7 +12,7 @@
 #include "engine/questions/ray.hpp"
 #include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

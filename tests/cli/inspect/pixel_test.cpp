@@ -19,7 +19,7 @@
 #include "render/film/answers/pictured_answer.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

@@ -17,8 +17,9 @@
 #include "render/page/live/watch.hpp"
 #include "tests/cli/page/http.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -217,7 +218,7 @@ TEST_F(Watched, ARunThatVanishesEndsIt) {
     ASSERT_TRUE(wait_until(*program, [&] { return state()["stage"] == "gone"; }));
     const Ended ended = program->wait();
     EXPECT_EQ(ended.status, 1);
-    EXPECT_THAT(ended.err, HasSubstr("run: the run's folder has gone"));
+    EXPECT_THAT(ended.err, tells({"run", "folder has gone"}));
 }
 
 std::size_t open_files(const fs::path& process) {

@@ -10,7 +10,8 @@
 
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -63,7 +64,7 @@ TEST(BedPeriods, LeaveOutLockedFramesInBetween) {
     EXPECT_THAT(shown(bed, locked(1), all), testing::ElementsAre(250, 410, 570));
     EXPECT_THAT(shown(bed, FilmSegment{}, all), testing::SizeIs(5)) << "in motion";
     ASSERT_EQ(bed.news().size(), 1u);
-    EXPECT_THAT(bed.news()[0], HasSubstr("only every 2 periods of the drive"));
+    EXPECT_THAT(bed.news()[0], HasSubstr("only every 2 periods"));
     EXPECT_THAT(bed.news()[0], HasSubstr("film.periods = 1"));
     // One frame every second period is already in step with the bed.
     const std::vector<Due> second{{330, 0}, {490, 0}, {650, 0}};
@@ -118,34 +119,16 @@ TEST(BedPeriods, AreThoseOfTheSceneWhereItSaysSo) {
     EXPECT_THAT(one.news().at(0), HasSubstr("locked frames jump"));
 }
 
-const char* bed_scene = R"(
-[[species]]
-name = "grain"
-count = 40
-diameter = "4 mm"
-density = 2500
-[contact]
-restitution = 0.5
-friction = 0.4
-[container]
-shape = "box"
-width = "15 mm"
-depth = "15 mm"
-height = "60 mm"
-[drive]
-frequency = "25 Hz"
-g_level = 4.5
-[run]
-duration = "0.8 s"
-accuracy = "draft"
-[film]
-size = "320x240"
-[film.colour]
-by = "rise"
-[[film.segment]]
-kind = "locked"
-average = 1
-)";
+const std::string bed_scene = SmallScene()
+                                  .beads(40, "grain")
+                                  .contacts("0.5", "0.4")
+                                  .box("15 mm", "15 mm", "60 mm")
+                                  .shaken("25 Hz", "4.5")
+                                  .lasts("0.8 s")
+                                  .more("accuracy = \"draft\"\n[film]\nsize = \"320x240\"\n")
+                                  .more("[film.colour]\nby = \"rise\"\n")
+                                  .more("[[film.segment]]\nkind = \"locked\"\naverage = 1\n")
+                                  .text();
 
 class DoubledBed : public testing::Test {
   protected:
@@ -161,8 +144,8 @@ class DoubledBed : public testing::Test {
 TEST_F(DoubledBed, IsShownEverySecondPeriod) {
     const Ended ended = grainreel({"movie", "bed.toml", "--frames", "--threads", "1", "--out", "found"});
     ASSERT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("only every 2 periods of the drive"));
-    EXPECT_THAT(text_of(here / "found/run.json"), HasSubstr("only every 2 periods of the drive"));
+    EXPECT_THAT(ended.err, HasSubstr("only every 2 periods"));
+    EXPECT_THAT(text_of(here / "found/run.json"), HasSubstr("only every 2 periods"));
     const auto found = pictures("found");
     EXPECT_LT(found, 21);
     EXPECT_GE(found, 11);
@@ -188,7 +171,7 @@ TEST_F(DoubledBed, IsDrawnAgainEverySecondPeriod) {
     const Ended ended = grainreel({"render", "run", "--frames", "--out", "again"});
     ASSERT_EQ(ended.status, 0) << ended.err;
     EXPECT_EQ(pictures("again"), 11);
-    EXPECT_THAT(ended.err, HasSubstr("only every 2 periods of the drive"));
+    EXPECT_THAT(ended.err, HasSubstr("only every 2 periods"));
     EXPECT_THAT(text_of(here / "again/frames/000000.png"), HasSubstr("1 frame every 2 periods"));
     const Ended all = grainreel({"render", "run", "--frames", "--out", "all", "--set", "film.periods=1"});
     ASSERT_EQ(all.status, 0) << all.err;
@@ -201,7 +184,7 @@ TEST_F(DoubledBed, IsDrawnAgainEverySecondPeriod) {
         grainreel({"compare", "run", "run", "--size", "480x270", "--no-film", "--frames", "--out", "both"});
     ASSERT_EQ(both.status, 0) << both.err;
     EXPECT_EQ(pictures("both"), 11) << "the same frames as render";
-    EXPECT_THAT(both.err, HasSubstr("only every 2 periods of the drive"));
+    EXPECT_THAT(both.err, HasSubstr("only every 2 periods"));
     EXPECT_THAT(text_of(here / "both/frames/000000.png"), HasSubstr("1 frame every 2 periods"));
 }
 

@@ -10,8 +10,8 @@
 #include "engine/measure/columns.hpp"
 #include "render/app/estimate/engine_cost.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

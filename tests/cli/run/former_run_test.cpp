@@ -11,7 +11,7 @@
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "tests/cli/made_frame.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

@@ -9,7 +9,8 @@
 #include <string>
 
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -18,49 +19,22 @@ using testing::HasSubstr;
 
 // A scene with a feed, an outlet, a plane, two species, orientations, forces on walls and fields, so that all
 // variables are written.
-constexpr const char* kEverything = R"(title = "Everything"
-[[species]]
-name = "small"
-diameter = "4 mm"
-density = 2500
-count = 6
-[[species]]
-name = "big"
-diameter = "8 mm"
-density = 1200
-count = 2
-[contact]
-stiffness = 200
-[container]
-shape = "box"
-width = "30 mm"
-depth = "20 mm"
-height = "60 mm"
-top = "open"
-outlet = { width = "14 mm", opens = "0.05 s", exit_depth = "15 mm" }
-[[wall]]
-name = "paddle"
-point = [0, 0.02, 0]
-normal = [0, -1, 0]
-[drive]
-frequency = "20 Hz"
-g_level = 2
-[[feed]]
-species = "small"
-rate = 200
-[run]
-duration = "0.15 s"
-[output]
-contacts = true
-orientation = true
-instruments = ["walls"]
-[output.fields]
-grid = "yz"
-periods = 1
-[film]
-size = "160x120"
-rate = 10
-)";
+const std::string kEverything =
+    test::SmallScene("title = \"Everything\"\n")
+        .beads(6, "small")
+        .beads(2, "big", "8 mm", "1200")
+        .more("[contact]\nstiffness = 200\n")
+        .box("30 mm", "20 mm", "60 mm")
+        .more("top = \"open\"\n")
+        .more("outlet = { width = \"14 mm\", opens = \"0.05 s\", exit_depth = \"15 mm\" }\n")
+        .more("[[wall]]\nname = \"paddle\"\npoint = [0, 0.02, 0]\nnormal = [0, -1, 0]\n")
+        .shaken("20 Hz", "2")
+        .more("[[feed]]\nspecies = \"small\"\nrate = 200\n")
+        .lasts("0.15 s")
+        .more("[output]\ncontacts = true\norientation = true\ninstruments = [\"walls\"]\n")
+        .more("[output.fields]\ngrid = \"yz\"\nperiods = 1\n[film]\nsize = \"160x120\"\n")
+        .more("rate = 10\n")
+        .text();
 
 // These units were read by UDUNITS-2 when it was tried.
 const std::set<std::string> known_units{"1",       "s", "second", "m",  "meter",  "degree", "m s-1",

@@ -18,8 +18,8 @@
 #include "engine/state/container_faces.hpp"
 #include "tests/cli/made_frame.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

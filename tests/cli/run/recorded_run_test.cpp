@@ -14,8 +14,9 @@
 #include "engine/base/error.hpp"
 #include "render/picture/base/shot.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -81,7 +82,7 @@ TEST_F(Recorded, AnEditedSceneIsRefused) {
     run("run");
     const auto trajectory = AllOf(HasSubstr("mixed/trajectory.nc: "), HasSubstr("scene.toml beside it"));
     edit_scene("frequency = 20", "frequency = 21");
-    expect_refused(AllOf(trajectory, HasSubstr("1 periods of the drive at 0.05 s"), HasSubstr("has 21 Hz")));
+    expect_refused(AllOf(trajectory, tells({"1 periods", "at 0.05 s"}), HasSubstr("has 21 Hz")));
     // The drive reaches 2 g at 20 Hz in three periods; after one of them the speed has this share.
     const double u = 1.0 / 3, share = u * u * u * (10 + u * (6 * u - 15));
     const double speed = share * 2 * 9.81 / (2 * std::numbers::pi * 20);
@@ -89,11 +90,11 @@ TEST_F(Recorded, AnEditedSceneIsRefused) {
     expect_refused(AllOf(trajectory, HasSubstr("frame 1 has the floor "),
                          HasSubstr(fmt::format("at {:.4g} m/s, but", speed))));
     edit_scene("phase = 0.0", "phase = 0.25");
-    expect_refused(AllOf(trajectory, HasSubstr("frame 0 is at phase 0 after 0 periods")));
+    expect_refused(AllOf(trajectory, tells({"frame 0", "phase 0", "0 periods"})));
     edit_scene("step = ", "step = 1e-5 #");
     expect_refused(AllOf(trajectory, HasSubstr("a step is 1e-05 s")));
     edit_scene("count = 40", "count = 41");
-    expect_refused(AllOf(trajectory, HasSubstr("has 50 grains, but scene.toml beside it has 51")));
+    expect_refused(AllOf(trajectory, tells({"50 grains", "scene.toml", "51"})));
     edit_scene("diameter = 0.006", "diameter = 0.005");
     expect_refused(trajectory);
     // There are as many grains with the same sizes, but other numbers of each.
@@ -269,8 +270,7 @@ TEST_F(Recorded, WhatAMixedFilmLeavesOutIsNamed) {
     const Ended ended = program({"compare", "run", "fifty.toml", "--out", "both", "--size", "480x270",
                                  "--no-replay", "--set", "film.segment=[{kind=\"locked\",average=1}]"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err,
-                HasSubstr("'average' is left out: beside a finished run, frames are single moments"));
+    EXPECT_THAT(ended.err, tells({"'average'", "left out", "single moments"}));
 }
 
 }  // namespace

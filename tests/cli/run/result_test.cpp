@@ -5,8 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -33,7 +34,7 @@ TEST(Result, ThatCannotBeWrittenIsAFailure) {
     for (const std::vector<std::string>& words : commands) {
         const Ended ended = run_program(words, {.folder = here.path(), .out = "/dev/full"});
         EXPECT_EQ(ended.status, 1) << words[0];
-        EXPECT_THAT(ended.err, HasSubstr("stdout: cannot be written: No space left on device")) << words[0];
+        EXPECT_THAT(ended.err, tells({"stdout", "cannot be written", "No space left"})) << words[0];
     }
     EXPECT_EQ(nlohmann::json::parse(text_of(here / "run/run.json"))["status"], "complete");
 }

@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/files/run_names.hpp"
-#include "tests/cli/busy_scene.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 

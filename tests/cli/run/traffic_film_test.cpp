@@ -13,8 +13,8 @@
 #include "render/picture/base/shot.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

@@ -13,10 +13,13 @@
 #include "engine/files/contacts_file.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "tests/cli/made_frame.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
+
+using test::tells;
 
 using test::made_frame, test::TemporaryFolder, test::vector_of;
 
@@ -527,7 +530,7 @@ TEST(Trajectory, AFileThatWasCutOffIsAUserError) {
     const std::string whole = three_frames(here);
     const std::size_t record = (whole.size() - 1) / 3;  // includes a part of the header
     test::write_old_text(here / "cut.nc", whole.substr(0, whole.size() - record));
-    EXPECT_THAT(mistake_in(here / "cut.nc"), testing::HasSubstr("cut.nc: was cut off: of its 3 frames 1"));
+    EXPECT_THAT(mistake_in(here / "cut.nc"), tells({"cut.nc", "cut off", "3 frames 1"}));
 }
 
 // A run that continues in the file corrects the count.

@@ -7,7 +7,8 @@
 #include <thread>
 
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -59,7 +60,7 @@ TEST(Chart, RefusesAFolderOfSomethingElse) {
     Program program({"chart", "accuracy", "--out", "chart"}, {here.path(), {}, 0});
     const Ended end = program.wait();
     EXPECT_EQ(end.status, 2);
-    EXPECT_THAT(end.err, HasSubstr("is not a table of this chart; move it away, or give another --out"));
+    EXPECT_THAT(end.err, tells({"not a table", "move it", "--out"}));
     EXPECT_EQ(lines_in(here / "chart/contacts.csv"), 1u);
     Program unknown({"chart", "beauty"}, {here.path(), {}, 0});
     EXPECT_EQ(unknown.wait().status, 2);

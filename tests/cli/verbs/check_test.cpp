@@ -10,8 +10,9 @@
 
 #include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -36,12 +37,12 @@ class CheckProgram : public testing::Test {
 TEST_F(CheckProgram, ReadsNoFurtherThanASceneMayGo) {
     const Ended device = check({"/dev/zero"});
     EXPECT_EQ(device.status, 2);
-    EXPECT_THAT(device.err, HasSubstr("/dev/zero: this is a device; give the path of a scene file"));
+    EXPECT_THAT(device.err, tells({"/dev/zero", "device", "path"}));
     write_text(here / "large.toml", "");
     fs::resize_file(here / "large.toml", (16 << 20) + 1);
     const Ended large = check({"large.toml"});
     EXPECT_EQ(large.status, 2);
-    EXPECT_THAT(large.err, HasSubstr("large.toml: is larger than the 16 MiB that a scene may have"));
+    EXPECT_THAT(large.err, tells({"large.toml", "larger", "16 MiB"}));
 }
 
 TEST_F(CheckProgram, ReadsAPipe) {
@@ -60,7 +61,7 @@ TEST_F(CheckProgram, NamesOnlyWhatIsKept) {
     EXPECT_THAT(kept("output.film_moments=true"), HasSubstr(", moments of the film "));
     EXPECT_THAT(kept("output.film_moments=false"), HasSubstr("comes back: checkpoints up to "));
     EXPECT_THAT(kept("output.film_moments=false"), Not(HasSubstr("moments of the film")));
-    EXPECT_THAT(kept("output.checkpoints=none"), HasSubstr("comes back: moments of the film "));
+    EXPECT_THAT(kept("output.checkpoints=none"), tells({"comes back", "moments of"}));
 }
 
 // With a given damping every size has a restitution of its own; a given restitution holds for all sizes.
@@ -81,7 +82,7 @@ TEST_F(CheckProgram, ABoxThatIsOnlyFedIsNotPacked) {
     write_text(here / "fed.toml", fed_scene_text);
     const Ended ended = check({"fed.toml"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr("start        empty; all grains come by [[feed]]\n"));
+    EXPECT_THAT(ended.out, tells({"empty", "[[feed]]"}));
 }
 
 // A pipe that stays silent holds the program in the middle of its work. If the signal did not end it, the
@@ -131,16 +132,16 @@ TEST_F(CheckProgram, RefusesMoreThanCanBeMade) {
     };
     const std::vector<std::string> long_run = {"--duration", "1e9", "--set", "output.trajectory=false"};
     EXPECT_THAT(complaint({"--duration", "1e9"}),
-                HasSubstr("make 2e+10 frames of the trajectory, and the most are 1e+09; lengthen "
-                          "'output.trajectory_interval' or shorten 'run.duration'"));
-    EXPECT_THAT(complaint(long_run), HasSubstr("make 1.6e+11 rows of measures, and the most are 1e+09"));
+                tells({"2e+10 frames", "trajectory", "1e+09", "lengthen 'output.trajectory_interval'",
+                       "'run.duration'"}));
+    EXPECT_THAT(complaint(long_run), tells({"1.6e+11 rows", "measures", "1e+09"}));
     EXPECT_THAT(complaint({"--duration", "1e9", "--set", "output.trajectory=false", "--set",
                            "output.measures_interval=10 s"}),
-                HasSubstr("the film would have 6e+10 frames, and the most are 10000000; raise "
-                          "'film.segment[0].playback', now 0.5, or shorten 'run.duration'"));
+                tells({"film", "6e+10 frames", "10000000", "raise 'film.segment[0].playback'", "0.5",
+                       "'run.duration'"}));
     EXPECT_THAT(complaint({"--duration", "1e6", "--set", "film.segment[0].playback=1e-320", "--set",
                            "output.measures_interval=1 s"}),
-                HasSubstr("raise 'film.segment[0].playback', now 1e-320, or shorten 'run.duration'"));
+                tells({"raise 'film.segment[0].playback'", "1e-320", "'run.duration'"}));
 }
 
 TEST_F(CheckProgram, TakesAnyPlaybackAndFrequency) {
@@ -157,7 +158,7 @@ TEST_F(CheckProgram, StatesTheSpeedThatIsPlayed) {
     const Ended ended = check({scene.string(), "--set", "film.segment[0].playback=1e-5"});
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_THAT(ended.out, testing::Not(HasSubstr("1/100000 speed")));
-    EXPECT_THAT(ended.out, HasSubstr("the film shows every step once and plays at "));
+    EXPECT_THAT(ended.out, tells({"every step once", "plays at"}));
 }
 
 std::string line_with(const std::string& text, const std::string& words) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tests/cli/program.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {
 namespace {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
@@ -43,8 +44,7 @@ TEST(Verbs, AreNamedToWhoTypesAnother) {
     EXPECT_EQ(ended.err, "error: unknown command 'moovie'; did you mean 'movie'? there are " + names +
                              "; see grainreel --help\n");
     EXPECT_THAT(run_program({"gravel.toml"}, {}).err, HasSubstr("did you mean 'movie gravel.toml'?"));
-    EXPECT_THAT(run_program({"xylophone"}, {}).err,
-                HasSubstr("unknown command 'xylophone'; there are movie"));
+    EXPECT_THAT(run_program({"xylophone"}, {}).err, tells({"unknown command", "'xylophone'", "movie"}));
 }
 
 TEST(Verbs, NameTheOptionThatWasMeant) {
@@ -59,14 +59,14 @@ TEST(Verbs, NameTheOptionThatWasMeant) {
 TEST(Verbs, ShowTheirOwnHelpToAMistake) {
     EXPECT_THAT(run_program({"movie", "a.toml", "--seed"}, {}).err,
                 HasSubstr("; see grainreel movie --help"));
-    EXPECT_THAT(run_program({"render"}, {}).err, HasSubstr("RUN is required; see grainreel render --help"));
+    EXPECT_THAT(run_program({"render"}, {}).err, tells({"RUN is required", "grainreel render --help"}));
     EXPECT_THAT(run_program({"--no-such"}, {}).err, HasSubstr("; see grainreel --help"));
 }
 
 TEST(Verbs, AreNamedAsTheUserCallsTheProgram) {
     const Program::Setting by_script{".", {"GRAINREEL_CALLED=../a tree/movie"}};
     EXPECT_THAT(run_program({"render"}, by_script).err,
-                HasSubstr("RUN is required; see '../a tree/movie' render --help"));
+                tells({"RUN is required", "'../a tree/movie' render --help"}));
     EXPECT_THAT(run_program({"moovie"}, by_script).err, HasSubstr("see '../a tree/movie' --help"));
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"--help"}, {"new", "--help"}, {"inspect", "--help"}}) {

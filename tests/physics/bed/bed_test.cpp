@@ -13,40 +13,21 @@
 #include "engine/start/layers.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/step/grid/neighbours.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
-const char* kWedge = R"(
-title = "test"
-[[species]]
-name = "small"
-count = 260
-diameter = { min = "4 mm", max = "5 mm" }
-density = 2500
-[[species]]
-name = "big"
-count = 20
-diameter = "9 mm"
-density = 2500
-[contact]
-restitution = 0.8
-friction = 0.4
-[container]
-shape = "wedge"
-half_angle = "25 deg"
-slant_height = "40 mm"
-half_width = "35 mm"
-depth = "30 mm"
-height = "90 mm"
-[drive]
-frequency = "20 Hz"
-g_level = 3
-[run]
-duration = "1 s"
-)";
+const std::string kWedge = test::SmallScene("title = \"test\"\n")
+                               .beads(260, "small", "4 mm to 5 mm")
+                               .beads(20, "big", "9 mm")
+                               .contacts("0.8", "0.4")
+                               .wedge("25 deg", "40 mm", "35 mm", "30 mm", "90 mm")
+                               .shaken("20 Hz", "3")
+                               .lasts("1 s")
+                               .text();
 
 // Most tests need a crowd in motion and not one at rest, so settling is cut short unless a test asks for
 // more.

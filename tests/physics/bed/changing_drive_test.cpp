@@ -5,9 +5,9 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/restart.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

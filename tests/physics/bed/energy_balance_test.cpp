@@ -8,6 +8,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -138,28 +139,14 @@ TEST(EnergyTerms, ASlidingSpringHoldsNoMoreThanItsCapGivesBack) {
     }
 }
 
-const char* kBed = R"(
-title = "balance"
-[[species]]
-name = "grain"
-count = 60
-diameter = { min = "3.5 mm", max = "4.5 mm" }
-density = 2500
-[contact]
-restitution = 0.8
-friction = 0.5
-[container]
-shape = "box"
-width = "16 mm"
-depth = "16 mm"
-height = "60 mm"
-[drive]
-frequency = "20 Hz"
-g_level = 3
-ramp = 0
-[run]
-duration = "1 s"
-)";
+const std::string kBed = test::SmallScene("title = \"balance\"\n")
+                             .beads(60, "grain", "3.5 mm to 4.5 mm")
+                             .contacts("0.8", "0.5")
+                             .box("16 mm", "16 mm", "60 mm")
+                             .shaken("20 Hz", "3")
+                             .more("ramp = 0\n")
+                             .lasts("1 s")
+                             .text();
 
 // A bed of the scene with steps of `share` times the standard one. It falls for `fall` seconds with a drag of
 // 20 1/s. vibrated: whether the walls start to move at step 0.

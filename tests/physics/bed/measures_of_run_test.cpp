@@ -8,37 +8,20 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace grainreel {
 namespace {
 
-const char* kBox = R"(
-[[species]]
-name = "small"
-count = 60
-diameter = { min = "4 mm", max = "5 mm" }
-density = 2500
-[[species]]
-name = "big"
-count = 9
-diameter = "9 mm"
-density = 1500
-[contact]
-law = "spring-dashpot"
-restitution = 0.8
-[container]
-shape = "box"
-width = "30 mm"
-depth = "30 mm"
-height = "90 mm"
-[drive]
-frequency = "20 Hz"
-g_level = 3
-[start]
-settle_limit = "0.05 s"
-[run]
-duration = "1 s"
-)";
+const std::string kBox = test::SmallScene()
+                             .beads(60, "small", "4 mm to 5 mm")
+                             .beads(9, "big", "9 mm", "1500")
+                             .more("[contact]\nlaw = \"spring-dashpot\"\nrestitution = 0.8\n")
+                             .box("30 mm", "30 mm", "90 mm")
+                             .shaken("20 Hz", "3")
+                             .more("[start]\nsettle_limit = \"0.05 s\"\n")
+                             .lasts("1 s")
+                             .text();
 
 double sum_of_energies(const Measures& m) {
     return m.at("kinetic_J") + m.at("rotational_J") + m.at("gravitational_J") + m.at("elastic_J");

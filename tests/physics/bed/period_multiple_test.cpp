@@ -11,6 +11,7 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -113,28 +114,16 @@ TEST(PeriodMultiple, OfABallOnAPlateIsTwoAboveTheFirstDoubling) {
     const double doubling =
         std::hypot(std::numbers::pi * (1 - e) / (1 + e), 2 * (1 + e * e) / std::pow(1 + e, 2));
     for (const auto& [g_level, expected] : {std::pair{0.9 * doubling, 1}, {1.04 * doubling, 2}}) {
-        const Scene scene = read_scene_text(R"(
-[[species]]
-name = "ball"
-diameter = "4 mm"
-density = 2500
-[contact]
-restitution = 0.1
-friction = 0
-[container]
-shape = "box"
-width = "20 mm"
-depth = "20 mm"
-height = "90 mm"
-[drive]
-frequency = "25 Hz"
-[[grain]]
-species = "ball"
-position = ["0 mm", "0 mm", "2 mm"]
-[run]
-duration = "2.4 s"
-)",
-                                            "ball.toml", {"drive.g_level=" + std::to_string(g_level)});
+        const Scene scene =
+            read_scene_text(test::SmallScene()
+                                .beads(0, "ball")
+                                .contacts("0.1", "0")
+                                .box("20 mm", "20 mm", "90 mm")
+                                .more("[drive]\nfrequency = \"25 Hz\"\n[[grain]]\nspecies = \"ball\"\n")
+                                .more("position = [\"0 mm\", \"0 mm\", \"2 mm\"]\n")
+                                .lasts("2.4 s")
+                                .text(),
+                            "ball.toml", {"drive.g_level=" + std::to_string(g_level)});
         const Plan plan = make_plan(scene);
         Simulation simulation(scene, plan, 1);
         simulation.pack();

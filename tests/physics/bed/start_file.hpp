@@ -13,22 +13,16 @@
 #include "engine/grain_table.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 
 inline constexpr double kBedDiameter = 0.004;
 
-inline const char* const kSpecies = R"([[species]]
-name = "beads"
-count = 60
-diameter = { min = "3.5 mm", max = "4.5 mm" }
-density = "2.5 g/cm3"
-[contact]
-restitution = 0.5
-friction = 0.5
-)";
+inline const std::string kSpecies =
+    test::SmallScene().beads(60, "beads", "3.5 mm to 4.5 mm", "2.5 g/cm3").contacts("0.5", "0.5").text();
 inline const char* const kBox = R"([container]
 shape = "box"
 width = "18 mm"

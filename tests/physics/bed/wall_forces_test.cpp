@@ -10,9 +10,9 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -81,27 +81,16 @@ INSTANTIATE_TEST_SUITE_P(Integrators, WallForces,
                          });
 
 // A scene with one grain that comes to rest by dashpots.
-constexpr const char* kOneGrain = R"([[species]]
-name = "ball"
-diameter = "4 mm"
-density = 2500
-[contact]
-law = "spring-dashpot"
-stiffness = 2000
-restitution = 0.1
-friction_law = "none"
-[container]
-shape = "box"
-width = "30 mm"
-depth = "20 mm"
-height = "16 mm"
-[[grain]]
-position = ["3 mm", "-5 mm", "2 mm"]
-[run]
-duration = "1 s"
-[output]
-measures_interval = "0.1 s"
-)";
+const std::string kOneGrain =
+    test::SmallScene()
+        .beads(0, "ball")
+        .more("[contact]\nlaw = \"spring-dashpot\"\nstiffness = 2000\nrestitution = 0.1\n")
+        .more("friction_law = \"none\"\n")
+        .box("30 mm", "20 mm", "16 mm")
+        .more("[[grain]]\nposition = [\"3 mm\", \"-5 mm\", \"2 mm\"]\n")
+        .lasts("1 s")
+        .more("[output]\nmeasures_interval = \"0.1 s\"\n")
+        .text();
 
 Measures at_rest(const Scene& scene, std::vector<FieldValues>* fields = nullptr) {
     Simulation run(scene, make_plan(scene), 1);

@@ -8,35 +8,23 @@
 
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
 // There is neither friction nor front and back, so the floor alone carries the bed.
-const char* const column_text = R"(gravity = 9.81
-[[species]]
-name = "glass"
-count = 150
-diameter = { min = "3.6 mm", max = "4.4 mm" }
-density = 2500
-[contact]
-law = "spring-dashpot"
-restitution = 0.3
-friction = 0
-[container]
-shape = "box"
-width = "20 mm"
-depth = "26 mm"
-height = "60 mm"
-periodic_depth = true
-[run]
-duration = "0.2 s"
-overlap = 0.05
-threads = 1
-)";
+const std::string column_text =
+    test::SmallScene("gravity = 9.81\n")
+        .beads(150, "glass", "3.6 mm to 4.4 mm")
+        .more("[contact]\nlaw = \"spring-dashpot\"\nrestitution = 0.3\nfriction = 0\n")
+        .box("20 mm", "26 mm", "60 mm")
+        .more("periodic_depth = true\n")
+        .lasts("0.2 s")
+        .more("overlap = 0.05\nthreads = 1\n")
+        .text();
 
 std::vector<double> field_of(const Simulation& run, const std::string& name) {
     const FieldSet& set = *run.field_sets().at(0);

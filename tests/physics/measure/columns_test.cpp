@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/small_scene.hpp"
 #include "tests/physics/measure/bed_by_hand.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace grainreel {
 namespace {

@@ -9,11 +9,11 @@
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/traffic.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/measure/bed_by_hand.hpp"
 #include "tests/physics/measure/inelastic_block.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

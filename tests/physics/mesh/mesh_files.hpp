@@ -13,8 +13,8 @@
 #include "engine/base/error.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 

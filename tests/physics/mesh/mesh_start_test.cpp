@@ -9,6 +9,7 @@
 #include "engine/state/container_faces.hpp"
 #include "engine/step/surroundings.hpp"
 #include "tests/physics/mesh/mesh_files.hpp"
+#include "tests/support/small_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -16,18 +17,12 @@ namespace {
 using std::numbers::pi;
 using testing::HasSubstr;
 
-const char* const kBeads = R"([[species]]
-name = "beads"
-count = 300
-diameter = "2 mm"
-density = "2.5 g/cm3"
-[contact]
-restitution = 0.6
-friction = 0.4
-[run]
-duration = "0.05 s"
-threads = 1
-)";
+const std::string kBeads = test::SmallScene()
+                               .beads(300, "beads", "2 mm", "2.5 g/cm3")
+                               .contacts("0.6", "0.4")
+                               .lasts("0.05 s")
+                               .more("threads = 1\n")
+                               .text();
 
 const char* const kVessel = R"([container]
 shape = "mesh"

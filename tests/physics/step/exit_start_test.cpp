@@ -11,13 +11,16 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/simulation/simulation.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/mesh/mesh_files.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
+using test::tells;
 using test::TemporaryFolder;
 using testing::Contains;
 using testing::HasSubstr;
@@ -25,33 +28,16 @@ using testing::Not;
 
 constexpr double kExitFrom = 0.010;  // m, y beyond which the exit lies
 
-constexpr const char* kBed = R"(
-[[species]]
-name = "small"
-count = 60
-diameter = { min = "3.6 mm", max = "4.4 mm" }
-density = 1100
-[[species]]
-name = "large"
-count = 5
-diameter = "6 mm"
-density = 2500
-[contact]
-restitution = 0.5
-friction = 0.3
-[container]
-shape = "box"
-width = "40 mm"
-depth = "20 mm"
-height = "60 mm"
-[start]
-settle_limit = "0.2 s"
-[run]
-duration = "0.05 s"
-accuracy = "draft"
-[output]
-instruments = ["outflow", "energy_balance", "walls"]
-)";
+const std::string kBed = test::SmallScene()
+                             .beads(60, "small", "3.6 mm to 4.4 mm", "1100")
+                             .beads(5, "large", "6 mm")
+                             .contacts("0.5", "0.3")
+                             .box("40 mm", "20 mm", "60 mm")
+                             .more("[start]\nsettle_limit = \"0.2 s\"\n")
+                             .lasts("0.05 s")
+                             .more("accuracy = \"draft\"\n")
+                             .more("[output]\ninstruments = [\"outflow\", \"energy_balance\", \"walls\"]\n")
+                             .text();
 constexpr const char* kExit = "[[exit]]\nlow = [-1, 0.010, -1]\nhigh = [1, 1, 1]\n";
 
 Scene scene_of(const std::string& text, std::vector<std::string> sets = {}) {
@@ -232,30 +218,19 @@ TEST_F(ExitBelowAPlate, GrainsThatFallIntoAnExitWhileTheBedIsPackedWaitThere) {
     write("plate.stl", box_of_triangles(Vec3(-0.02, -0.02, -0.004), Vec3(0.02, 0.02, 0)));
     constexpr double kLow = -0.10, kHigh = -0.02;  // m, of the exit
     for (const char* method : {"layers", "rain"}) {
-        const Scene scene = read(R"(
-[[species]]
-name = "beads"
-count = 150
-diameter = "4 mm"
-density = 2500
-[contact]
-friction = 0.5
-[container]
-shape = "none"
-[[mesh]]
-name = "plate"
-file = "plate.stl"
-[[exit]]
-low = [-1, -1, -0.10]
-high = [1, 1, -0.02]
-[start]
-region = { low = [-0.03, -0.03, 0.002], high = [0.03, 0.03, 0.06] }
-settle_limit = "1 s"
-[run]
-duration = "0.05 s"
-accuracy = "draft"
-)",
-                                 {fmt::format("start.method={}", method)});
+        const Scene scene =
+            read(test::SmallScene()
+                     .beads(150)
+                     .more("[contact]\nfriction = 0.5\n")
+                     .empty_space()
+                     .more("[[mesh]]\nname = \"plate\"\nfile = \"plate.stl\"\n")
+                     .more("[[exit]]\nlow = [-1, -1, -0.10]\nhigh = [1, 1, -0.02]\n")
+                     .more("[start]\nregion = { low = [-0.03, -0.03, 0.002], high = [0.03, 0.03, 0.06] }\n")
+                     .more("settle_limit = \"1 s\"\n")
+                     .lasts("0.05 s")
+                     .more("accuracy = \"draft\"\n")
+                     .text(),
+                 {fmt::format("start.method={}", method)});
         const Start start = start_of(scene, 1);
         EXPECT_EQ(start.packed.size(), 150u) << method;
         ASSERT_GT(start.left.size(), 10u) << method;
@@ -321,28 +296,17 @@ TEST(ExitAtStart, ThePlanWarnsOfABedInAnExit) {
 }
 
 TEST(ExitAtStart, ListedGrainsLeaveAtOnce) {
-    const Scene scene = scene_of(R"(
-gravity = 10
-[[species]]
-name = "ball"
-diameter = "4 mm"
-density = 2500
-[contact]
-stiffness = "1000 N/m"
-[container]
-shape = "none"
-[[grain]]
-position = [0, 0, 0.05]
-[[grain]]
-position = [0, 0.02, -0.05]
-[[exit]]
-low = [-1, -1, -1]
-high = [1, 1, 0]
-[run]
-duration = "0.12 s"
-step = 1e-5
-)");
-    EXPECT_THAT(warning_of(scene), HasSubstr(": 1 of 2 grains (50 %) lie in an exit"));
+    const Scene scene =
+        scene_of(test::SmallScene("gravity = 10\n")
+                     .beads(0, "ball")
+                     .more("[contact]\nstiffness = \"1000 N/m\"\n")
+                     .empty_space()
+                     .more("[[grain]]\nposition = [0, 0, 0.05]\n[[grain]]\nposition = [0, 0.02, -0.05]\n")
+                     .more("[[exit]]\nlow = [-1, -1, -1]\nhigh = [1, 1, 0]\n")
+                     .lasts("0.12 s")
+                     .more("step = 1e-5\n")
+                     .text());
+    EXPECT_THAT(warning_of(scene), tells({": 1 of 2 grains", "50 %", "in an exit"}));
     const Start start = start_of(scene, 1);
     ASSERT_EQ(start.left.size(), 1u);
     EXPECT_EQ(start.left[0].id, 1);

@@ -2,7 +2,6 @@
 // mass and energy of a bed that runs out.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -14,6 +13,8 @@
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/surroundings.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -275,30 +276,17 @@ TEST(Outlet, ContactsTurnAsTheirNormalsDo) {
     EXPECT_GT(turned, 300);
 }
 
-const char* kBox = R"(
-title = "outlet"
-[[species]]
-name = "grain"
-count = 120
-diameter = { min = "3 mm", max = "4 mm" }
-density = 2500
-[contact]
-restitution = 0.7
-friction = 0.4
-[container]
-shape = "box"
-width = "30 mm"
-depth = "20 mm"
-height = "60 mm"
-top = "open"
-outlet = { width = "14 mm", opens = "0.05 s", exit_depth = "15 mm" }
-[drive]
-frequency = "30 Hz"
-g_level = 2
-[run]
-duration = "0.3 s"
-overlap = 0.05
-)";
+const std::string kBox =
+    test::SmallScene("title = \"outlet\"\n")
+        .beads(120, "grain", "3 mm to 4 mm")
+        .contacts("0.7", "0.4")
+        .box("30 mm", "20 mm", "60 mm")
+        .more("top = \"open\"\n")
+        .more("outlet = { width = \"14 mm\", opens = \"0.05 s\", exit_depth = \"15 mm\" }\n")
+        .shaken("30 Hz", "2")
+        .lasts("0.3 s")
+        .more("overlap = 0.05\n")
+        .text();
 
 Scene scene_of(std::vector<std::string> sets = {}) {
     return read_scene_text(kBox, "outlet.toml", with_tested_precision(std::move(sets)));
@@ -306,30 +294,17 @@ Scene scene_of(std::vector<std::string> sets = {}) {
 
 // A single grain above the outlet leaves in the first step n with z0 - g (n dt)^2 / 2 < -exit_depth.
 TEST(Outlet, AGrainThatFallsThroughLeavesInTheStepOfFreeFall) {
-    const Scene scene = read_scene_text(R"(
-title = "one"
-gravity = 9.81
-[[species]]
-name = "grain"
-diameter = "4 mm"
-density = 2500
-[contact]
-restitution = 0.7
-friction = 0
-[container]
-shape = "cylinder"
-diameter = "40 mm"
-height = "60 mm"
-top = "open"
-outlet = { diameter = "25 mm", exit_depth = "40 mm" }
-[[grain]]
-position = [0.002, -0.003, 0.03]
-[run]
-duration = "0.2 s"
-[start]
-method = "grains"
-)",
-                                        "one.toml", with_tested_precision({}));
+    const Scene scene = read_scene_text(
+        test::SmallScene("title = \"one\"\ngravity = 9.81\n")
+            .beads(0, "grain")
+            .contacts("0.7", "0")
+            .cylinder("40 mm", "60 mm")
+            .more("top = \"open\"\noutlet = { diameter = \"25 mm\", exit_depth = \"40 mm\" }\n")
+            .more("[[grain]]\nposition = [0.002, -0.003, 0.03]\n")
+            .lasts("0.2 s")
+            .more("[start]\nmethod = \"grains\"\n")
+            .text(),
+        "one.toml", with_tested_precision({}));
     const Plan plan = make_plan(scene);
     Simulation run(scene, plan, 1);
     run.pack();
@@ -351,9 +326,8 @@ TEST(Outlet, ABedRunsOutAlikeOnAnyNumberOfThreadsAndThroughACheckpoint) {
         const Plan plan = make_plan(scene);
         ASSERT_TRUE(plan.opens);
         std::uint64_t bits = 0;
-        const std::filesystem::path folder = std::filesystem::temp_directory_path(),
-                                    opened = folder / fmt::format("opened{}.grs", getpid()),
-                                    later = folder / fmt::format("later{}.grs", getpid());
+        const test::TemporaryFolder folder;
+        const std::filesystem::path opened = folder / "opened.grs", later = folder / "later.grs";
         for (const int threads : {1, 2, 3}) {
             Simulation run(scene, plan, threads);
             run.pack();
@@ -375,7 +349,6 @@ TEST(Outlet, ABedRunsOutAlikeOnAnyNumberOfThreadsAndThroughACheckpoint) {
             Simulation on(next, plan, 2);
             on.advance(plan.steps);
             EXPECT_EQ(on.state_hash(), bits) << file;
-            std::filesystem::remove(file);
         }
     }
 }
@@ -422,8 +395,8 @@ TEST(Outlet, WhatFlowsOutIsKnownWhileAFeedGivesGrains) {
         text, "outlet.toml", with_tested_precision({"species.grain.count=70", "run.duration=0.14 s"}),
         measurable_in);
     const Plan plan = make_plan(scene);
-    const std::filesystem::path half =
-        std::filesystem::temp_directory_path() / fmt::format("half{}.grs", getpid());
+    const test::TemporaryFolder folder;
+    const std::filesystem::path half = folder / "half.grs";
     std::vector<std::vector<double>> rows;
     double left = 0, flowed = 0, last = 0;
     const auto go_on = [&](Simulation& run, bool save) {
@@ -455,7 +428,6 @@ TEST(Outlet, WhatFlowsOutIsKnownWhileAFeedGivesGrains) {
     for (std::size_t k = 0; k < later.size(); ++k)
         for (std::size_t c = 0; c < later[k].size(); ++c)
             EXPECT_TRUE(later[k][c] == rows[18 + k][c] || std::isnan(later[k][c])) << k << " " << c;
-    std::filesystem::remove(half);
 }
 
 // The energy balances term by term, also if an outlet opens below a bed at rest.

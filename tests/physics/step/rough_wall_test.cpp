@@ -13,42 +13,25 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/surroundings.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
-constexpr const char* kWedge = R"(
-[[species]]
-name = "small"
-count = 90
-diameter = { min = "2.8 mm", max = "3.2 mm" }
-density = 2500
-[[species]]
-name = "big"
-count = 6
-diameter = { min = "4.5 mm", max = "5.5 mm" }
-density = 2500
-[contact]
-restitution = 0.7
-friction = 0.4
-[container]
-shape = "wedge"
-half_angle = "20 deg"
-slant_height = "20 mm"
-half_width = "18 mm"
-depth = "16 mm"
-height = "40 mm"
-wall_grains = { species = "big", faces = ["left_slant", "right_slant", "floor", "front"] }
-[drive]
-frequency = "40 Hz"
-g_level = 4
-[run]
-duration = "0.05 s"
-[start]
-settle_limit = "0.02 s"
-)";
+const std::string kWedge = test::SmallScene()
+                               .beads(90, "small", "2.8 mm to 3.2 mm")
+                               .beads(6, "big", "4.5 mm to 5.5 mm")
+                               .contacts("0.7", "0.4")
+                               .wedge("20 deg", "20 mm", "18 mm", "16 mm", "40 mm")
+                               .more(
+                                   "wall_grains = { species = \"big\", faces = [\"left_slant\", "
+                                   "\"right_slant\", \"floor\", \"front\"] }\n")
+                               .shaken("40 Hz", "4")
+                               .lasts("0.05 s")
+                               .more("[start]\nsettle_limit = \"0.02 s\"\n")
+                               .text();
 
 Scene scene_of(std::vector<std::string> sets = {}) {
     return read_scene_text(kWedge, "rough.toml", with_tested_precision(std::move(sets)), measurable_in);
@@ -370,26 +353,15 @@ TEST(RoughWalls, EnergyBalances) {
 }
 
 // Few grains lie in a thin layer, between the glued grains, so that they start small and light.
-constexpr const char* kFewInACylinder = R"(
-[[species]]
-name = "grains"
-count = 6
-diameter = "4 mm"
-density = 500
-[container]
-shape = "cylinder"
-height = "80 mm"
-diameter = "48 mm"
-wall_grains = { species = "grains", faces = ["floor"] }
-[drive]
-frequency = "200 Hz"
-amplitude = "0.7 mm"
-[start]
-settle_limit = "1 ms"
-[run]
-duration = "0.02 s"
-accuracy = "draft"
-)";
+const std::string kFewInACylinder = test::SmallScene()
+                                        .beads(6, "grains", "4 mm", "500")
+                                        .cylinder("48 mm", "80 mm")
+                                        .more("wall_grains = { species = \"grains\", faces = [\"floor\"] }\n")
+                                        .more("[drive]\nfrequency = \"200 Hz\"\namplitude = \"0.7 mm\"\n")
+                                        .more("[start]\nsettle_limit = \"1 ms\"\n")
+                                        .lasts("0.02 s")
+                                        .more("accuracy = \"draft\"\n")
+                                        .text();
 
 // Packs so many grains and looks at the health of the first step. Each grain must lie in the cylinder, and
 // overlap no other body by more than a hundredth of its radius.

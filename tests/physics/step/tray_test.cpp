@@ -9,35 +9,24 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/surroundings.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
 
-constexpr const char* kHourglass = R"(
-[[species]]
-name = "sand"
-count = 60
-diameter = { min = "3 mm", max = "4 mm" }
-density = 2500
-[contact]
-restitution = 0.6
-friction = 0.3
-[container]
-shape = "wedge"
-half_angle = "40 deg"
-floor_width = "24 mm"
-half_width = "30 mm"
-depth = "16 mm"
-height = "40 mm"
-outlet = { width = "24 mm", opens = "10 ms" }
-tray = { depth = "30 mm", width = "64 mm" }
-[run]
-duration = "0.3 s"
-[start]
-settle_limit = "0.02 s"
-)";
+const std::string kHourglass =
+    test::SmallScene()
+        .beads(60, "sand", "3 mm to 4 mm")
+        .contacts("0.6", "0.3")
+        .more("[container]\nshape = \"wedge\"\nhalf_angle = \"40 deg\"\n")
+        .more("floor_width = \"24 mm\"\nhalf_width = \"30 mm\"\ndepth = \"16 mm\"\n")
+        .more("height = \"40 mm\"\noutlet = { width = \"24 mm\", opens = \"10 ms\" }\n")
+        .more("tray = { depth = \"30 mm\", width = \"64 mm\" }\n")
+        .lasts("0.3 s")
+        .more("[start]\nsettle_limit = \"0.02 s\"\n")
+        .text();
 
 Scene scene_of(std::vector<std::string> sets = {}) {
     return read_scene_text(kHourglass, "hourglass.toml", with_tested_precision(std::move(sets)),

@@ -11,7 +11,6 @@ Exit status: 0 no problem, 1 problems, 2 a mistake.
 """
 import argparse
 import os
-import shutil
 import sys
 import tempfile
 import time
@@ -70,12 +69,11 @@ def main():
         if name not in GROUPS:
             parser.error(f"{name}: is no group; there are {', '.join(GROUPS)}")
     with_mounts_of_our_own()
-    folder = job.keep or Path(tempfile.mkdtemp(prefix="faults."))
-    folder.mkdir(parents=True, exist_ok=bool(not job.keep))
-    folder.chmod(0o755)
-    problems = sum(run_group(name, job, folder / name.replace(" ", "_")) for name in job.groups or GROUPS)
-    if not job.keep:
-        shutil.rmtree(folder, ignore_errors=True)
+    with tempfile.TemporaryDirectory(prefix="faults.", ignore_cleanup_errors=True) as temporary:
+        folder = job.keep or Path(temporary)
+        folder.mkdir(parents=True, exist_ok=bool(not job.keep))
+        folder.chmod(0o755)
+        problems = sum(run_group(name, job, folder / name.replace(" ", "_")) for name in job.groups or GROUPS)
     return 1 if problems else 0
 
 

@@ -1,108 +1,24 @@
 """What all groups need: scenes, the program with its surroundings, and the comparison of two runs."""
 import json
-import os
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+from program import plain_environment  # noqa: E402
+from runs import content, differing, shared_scene  # noqa: E402
+
 LONGEST = 240  # s, after which a program that has not ended counts as hanging
 
-# Grains that come and leave, two drives, fields, contacts, a film: all that a checkpoint has to carry.
-BUSY = """title = "Busy"
-[[species]]
-name = "big"
-count = 10
-diameter = "6 mm"
-density = "2.5 g/cm3"
-[[species]]
-name = "small"
-count = 60
-diameter = { min = "3 mm", max = "4 mm" }
-density = "2.5 g/cm3"
-[contact]
-restitution = 0.6
-friction = 0.4
-[container]
-shape = "box"
-width = "30 mm"
-depth = "15 mm"
-height = "60 mm"
-periodic_depth = false
-outlet = { width = "14 mm", opens = "0.03 s", exit_depth = "10 mm" }
-[[feed]]
-species = "small"
-rate = 300
-[drive]
-frequency = "40 Hz"
-g_level = 2
-ramp = 0
-[[drive.stage]]
-from = "0.025 s"
-frequency = "60 Hz"
-over = 3
-[start]
-settle_limit = "0.01 s"
-[run]
-duration = "0.1 s"
-overlap = 0.05
-accuracy = "draft"
-threads = 1
-[output]
-contacts = true
-orientation = true
-instruments = ["walls", "outflow"]
-trajectory_interval = "3 ms"
-measures_interval = "3 ms"
-[output.fields]
-grid = "yz"
-periods = 1
-samples = 4
-width = "4 mm"
-cell = "8 mm"
-[film]
-size = "160x90"
-rate = 25
-preset = "ultrafast"
-[[film.segment]]
-playback = 0.2
-"""
-
-# Fifty grains in a closed box; it packs long enough to be caught at it.
-PLAIN = """title = "Fifty grains"
-[[species]]
-name = "small"
-count = 40
-diameter = "4 mm"
-density = "2.5 g/cm3"
-[[species]]
-name = "big"
-count = 10
-diameter = "6 mm"
-density = "2.5 g/cm3"
-[contact]
-restitution = 0.7
-friction = 0.4
-[container]
-shape = "box"
-width = "30 mm"
-depth = "20 mm"
-height = "40 mm"
-[drive]
-frequency = "20 Hz"
-g_level = 2
-[run]
-duration = "0.1 s"
-overlap = 0.05
-threads = 1
-[film]
-size = "160x120"
-rate = 30
-[[film.segment]]
-playback = 0.5
-"""
+# All that a checkpoint has to carry, for more grains than the tests in C++ take; and fifty grains in a closed box, which
+# packs long enough to be caught at it.
+BUSY = shared_scene("busy", ("count = 4\n", "count = 10\n"), ("count = 12\n", "count = 60\n"), ('"7 ms"', '"3 ms"'),
+                    ("playback = 0.5", "playback = 0.2"))
+PLAIN = shared_scene("fifty", ('duration = "0.2 s"\noverlap = 0.05\n', 'duration = "0.1 s"\noverlap = 0.05\nthreads = 1\n'))
 
 FILES = ("final.csv", "measures.csv", "outflow.csv", "trajectory.nc", "contacts.nc", "fields.nc", "film_moments.nc",
          "key_moments.nc", "key_contacts.nc", "scene.toml", "movie.mp4", "poster.png")
@@ -139,10 +55,7 @@ class Bench:
     counts: dict = field(default_factory=dict)
 
     def environment(self, **more):
-        """Without the tester's own settings. A value of None takes the variable away."""
-        plain = {"PATH": os.environ["PATH"], "HOME": str(self.folder), "XDG_CACHE_HOME": str(self.folder / "cache"),
-                 "GRAINREEL_PACKINGS": "off", "LC_ALL": "C.UTF-8", "TMPDIR": "/tmp", **more}
-        return {name: value for name, value in plain.items() if value is not None}
+        return plain_environment(self.folder, **more)
 
     def start(self, *words, cwd=None, env=None, **how):
         how.setdefault("stdout", subprocess.PIPE)
@@ -209,13 +122,6 @@ def record_of(run):
         return {}
 
 
-def content(path):
-    try:
-        return path.read_bytes()
-    except OSError:
-        return None
-
-
 def difference(whole, run, names=FILES):
     """The first thing in which two runs differ, in words; empty if they are alike."""
     first, second = record_of(whole), record_of(run)
@@ -225,9 +131,8 @@ def difference(whole, run, names=FILES):
         return f"run.json says {second.get('status')}"
     if first["engine"]["state_hash"] != second["engine"]["state_hash"]:
         return "another end state"
-    for name in names:
-        if content(Path(whole) / name) != content(Path(run) / name):
-            return name + (" differs" if (Path(run) / name).exists() else " is missing")
+    for name in differing(whole, run, names):
+        return name + (" differs" if (Path(run) / name).exists() else " is missing")
     frames = Path(whole) / "frames"
     for picture in sorted(frames.iterdir()) if frames.is_dir() else []:
         if content(picture) != content(Path(run) / "frames" / picture.name):
