@@ -17,7 +17,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/run/import/import_run.hpp"
-#include "tests/cli/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

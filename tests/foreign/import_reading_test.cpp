@@ -11,8 +11,8 @@
 #include "engine/base/error.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "tests/cli/small_disk.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/foreign/dump_files.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {

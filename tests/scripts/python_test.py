@@ -23,7 +23,7 @@ except ImportError as missing:
     sys.exit(77)
 import grainreel  # noqa: E402
 
-SCENE = (ROOT / "tests/cli/small_scene.hpp").read_text().split('R"(')[1].split(')"')[0]
+SCENE = (ROOT / "tests/data/scenes/fifty.toml").read_text()
 
 
 def expect(holds, what):

@@ -37,7 +37,7 @@ void usual_overlap(Run& run, const Scene&) {
     if (run.accuracy == Accuracy::reference) run.overlap = 0.003;
 }
 
-enum Place { of_time, of_method };  // the order in a written scene
+enum Place { with_time, with_method };  // the order in a written scene
 
 const KeyTable<Run>& run_table() {
     using R = Run;
@@ -45,32 +45,32 @@ const KeyTable<Run>& run_table() {
         quantity("duration", &R::duration, Dimension::time, positive, literal("\"10 s\""),
                  "Of vibration; without a drive, of simulated time.")
             .decides_nothing()
-            .written_at(of_time),
+            .written_at(with_time),
         integer("seed", &R::seed, 0, 9007199254740992.0, initial(), "Of every random choice.")
-            .written_at(of_time),
+            .written_at(with_time),
         integer("threads", &R::threads, 0, 1024, initial(), "0: as many as the machine gives.")
             .decides_nothing()
-            .written_at(of_time),
+            .written_at(with_time),
         choice("accuracy", &R::accuracy, accuracy_words, initial(),
                "Defaults of overlap and steps a contact: 2 % and 0.7 times, 1 % and once, 0.3 % and "
                "4 times; docs/reference/accuracy.md has the errors.")
-            .written_at(of_method),
+            .written_at(with_method),
         quantity("step", &R::step, Dimension::time, positive, note("chosen by the plan"),
                  "With a drive it is shortened so that a multiple of 8 steps makes a period.")
             .often_chosen()
-            .written_at(of_time),
+            .written_at(with_time),
         quantity("overlap", &R::overlap, Dimension::number, {0, 0.1, true, false},
                  note("0.01; by `accuracy`"),
                  "Wanted largest overlap, divided by the smaller diameter; sets the stiffness.")
             .usually(usual_overlap)
-            .written_at(of_method),
+            .written_at(with_method),
         choice("integrator", &R::integrator, integrator_words, initial(),
                "How a step is made; the others are for comparison.")
-            .written_at(of_method),
+            .written_at(with_method),
         choice("precision", &R::precision, precision_words, initial(),
                "mixed: contact laws, their histories and relative motion in single precision, all "
                "else in double; about 1.25 times as fast.")
-            .written_at(of_method),
+            .written_at(with_method),
         flag("contact_corrections", &R::contact_corrections, note("true where possible; false with draft"),
              "walton-braun of constant restitution up to 0.9976, with velocity-verlet: corrects "
              "onset, peak and exit of each contact.")
@@ -78,7 +78,7 @@ const KeyTable<Run>& run_table() {
                 run.contact_corrections =
                     correctable(scene.contact, run.integrator) && run.accuracy != Accuracy::draft;
             })
-            .written_at(of_method),
+            .written_at(with_method),
         // It is not written, because the plan has turned it into a step.
         integer("steps_per_contact", &R::steps_per_contact, 4, 1000000,
                 note("12 or more by restitution; 45 with a dashpot or a restitution above 0.9976; by "

@@ -10,9 +10,9 @@
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "tests/cli/small_scene.hpp"
-#include "tests/cli/temporary_folder.hpp"
 #include "tests/physics/world.hpp"
+#include "tests/support/small_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
