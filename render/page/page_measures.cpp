@@ -128,9 +128,11 @@ class FieldsFile {
         return {ends[0], ends[1]};
     }
 
-    // The values in the plane. For a grid in three dimensions they are the mean over the depth, weighted by
-    // each cell's room, or the sum.
-    Values plane(const std::string& name, std::size_t record, bool sum = false) const {
+    // How a grid in three dimensions becomes a plane: by the mean over the depth, weighted by each cell's
+    // room, or by the sum.
+    enum class Depth { mean, sum };
+    Values plane(const std::string& name, std::size_t record, Depth depth = Depth::mean) const {
+        const bool sum = depth == Depth::sum;
         const int variable = file_.find_variable(name);
         if (nx_ == 1) return read(variable, record);
         const Values all = read(variable, record), room = read(file_.find_variable("free_volume"), record);
@@ -236,8 +238,7 @@ void append(std::vector<std::uint8_t>& bytes, const FieldQuantity& quantity, con
 // Appends the room of each cell inside the container, relative to the cell with most room. The first record
 // has it for all, since the container does not move on the grid.
 void append_room(std::vector<std::uint8_t>& bytes, const FieldsFile& file) {
-    const bool sum = true;
-    const Values room = file.plane("free_volume", 0, sum);
+    const Values room = file.plane("free_volume", 0, FieldsFile::Depth::sum);
     const double most = *std::max_element(room.begin(), room.end());
     for (const double volume : room) {
         const double share = most > 0 && std::isfinite(volume) ? volume / most : 0;

@@ -49,15 +49,6 @@ double usual_fill(int type) {
     return type >= 0 && type < static_cast<int>(fills.size()) ? fills[type] : nothing;
 }
 
-// The size in SI of a unit that measures this; none for other words.
-std::optional<double> unit_in(const std::string& word, Dimension dimension) {
-    try {
-        return word.empty() ? std::nullopt : std::optional(unit_size(word, dimension));
-    } catch (const UserError&) {
-        return std::nullopt;
-    }
-}
-
 // A variable of numbers. per_frame and per_grain tell whether it has the dimensions of frames and of grains;
 // components is the size of its other dimension.
 struct AmberVariable {
@@ -339,8 +330,8 @@ void AmberFile::find_units() {
     const AmberVariable* time = find("time");
     const std::string length = places().units, second = time ? time->units : std::string();
     if (same_word(length, "lj")) facts_.units = "lj";
-    facts_.length_unit = unit_in(length, Dimension::length);
-    facts_.time_unit = unit_in(second, Dimension::time);
+    facts_.length_unit = unit_size_in(length, Dimension::length);
+    facts_.time_unit = unit_size_in(second, Dimension::time);
     if (!same_word(length, "angstrom") || !too_dense_for_atoms()) return;
     facts_.length_unit = facts_.time_unit = std::nullopt;
     news_.push_back(

@@ -20,6 +20,7 @@
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/scene/bed.hpp"
 #include "render/app/estimate/engine_cost.hpp"
+#include "render/app/estimate/speed_cache.hpp"
 #include "render/app/messages/stop_signal.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/sampling/film_frames.hpp"

@@ -9,7 +9,7 @@
 #include "engine/frame.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
-#include "render/app/estimate/engine_cost.hpp"
+#include "render/app/estimate/speed_cache.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/scene/filmed_scene.hpp"

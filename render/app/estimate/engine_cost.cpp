@@ -3,61 +3,53 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "engine/base/numbers.hpp"
-#include "engine/base/own_folder.hpp"
-#include "engine/base/plain_file.hpp"
-#include "engine/base/program.hpp"
-#include "engine/base/team.hpp"
 #include "engine/plan/plan_bed.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/motion/scheme.hpp"
-#include "engine/vector/instructions.hpp"
-#include "render/app/messages/version.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 namespace {
 
-// All numbers here were measured by processor time (docs/notes/performance.md). The first are the contacts of
-// a grain in a bed at rest.
-constexpr double kAtRest = 4.5, kAtRestWithoutFriction = 5.8;
-// In a shaken bed some contacts (kThrown) remain at any strength. The others decrease exponentially with the
-// strength, at the rate kFallsOff.
-constexpr double kThrown = 0.25, kFallsOff = 2.6;
+// What was fitted to measurements by processor time (docs/notes/performance.md, "Where the estimate of
+// `check` misses"). Costs are relative to a step of a grain of the lattice.
+struct FittedCosts {
+    // Contacts of a grain in a bed at rest.
+    double contacts_at_rest = 4.5, contacts_without_friction = 5.8;
+    // In a shaken bed some contacts (thrown) remain at any strength. The others decrease exponentially with
+    // the strength, at the rate falls_off.
+    double thrown = 0.25, falls_off = 2.6;
 
-// Costs relative to a step of a grain of the lattice: of a grain's step without contacts (the first three),
-// and of each contact (kContact).
-constexpr double kGrain = 0.23, kGrainWithoutSpin = 0.115, kGrainOfGas = 0.15, kContact = 0.165;
-// The part of a grain's cost that is for new lists of neighbours. A list lasts for a certain time, so shorter
-// steps share it. The cost is kLists while the time sqrt(diameter / g) has at most kStepsOfLists steps; with
-// more steps it decreases as 1 / steps.
-constexpr double kLists = 0.1, kStepsOfLists = 5000;
-constexpr double kStep = 4.2;  // cost of a step without its grains
-// A step of a grain costs up to kLargeBedCost times as much in a bed that does not fit into the caches. The
-// factor grows with the logarithm of the number of grains, from kSmallBed to kLargeBed grains.
-constexpr double kLargeBedCost = 1.5;
-constexpr double kSmallBed = 2000;
-constexpr double kRow = 3.7;          // cost of a row of measures for each grain
-constexpr double kInstrument = 2.5;   // what an instrument adds to a row
-constexpr double kFieldMoment = 8.4;  // cost of a moment of fields for each grain
-// What the energy balance adds to a step: for a grain, and for each of its contacts.
-constexpr double kBalance = 0.3, kBalanceContact = 0.4;
+    // A step of a grain without contacts, and what each contact adds.
+    double grain = 0.23, grain_without_spin = 0.115, grain_of_gas = 0.15, contact = 0.165;
+    // The part of a grain's cost that is for new lists of neighbours. A list lasts for a certain time, so
+    // shorter steps share it. The cost is `lists` while the time sqrt(diameter / g) has at most
+    // steps_of_lists steps; with more steps it decreases as 1 / steps.
+    double lists = 0.1, steps_of_lists = 5000;
+    double step = 4.2;  // a step without its grains
+    // A step of a grain costs up to large_bed times as much in a bed that does not fit into the caches. The
+    // factor grows with the logarithm of the number of grains, from small_bed_grains to kLargeBed grains.
+    double large_bed = 1.5, small_bed_grains = 2000;
 
-// Radii grow in about kGrowingSteps steps. Then the bed falls and comes to rest (kFalling). It counts as at
-// rest after it has been calm for kCalm sqrt(diameter / g), as in settle() (engine/start/settle.cpp).
-constexpr double kGrowingSteps = 8e3, kFalling = 0.28 /* s, under Earth's gravity */, kCalm = 10;
-// Without friction a bed takes longer to come to rest, since it slides into closer order: 0.63 s in all, 0.31
-// s with friction.
-constexpr double kFallingWithoutFriction = 0.48;
+    double row = 3.7;           // a row of measures, for each grain
+    double instrument = 2.5;    // what an instrument adds to a row
+    double field_moment = 8.4;  // a moment of fields, for each grain
+    // What the energy balance adds to a step: for a grain, and for each of its contacts.
+    double balance = 0.3, balance_contact = 0.4;
+
+    // Radii grow in about growing_steps steps. Then the bed falls and comes to rest (falling, in s, under
+    // Earth's gravity). It counts as at rest after it has been calm for calm sqrt(diameter / g), as in
+    // settle() (engine/start/settle.cpp). Without friction a bed takes longer, since it slides into closer
+    // order: 0.63 s in all, 0.31 s with friction.
+    double growing_steps = 8e3, falling = 0.28, falling_without_friction = 0.48, calm = 10;
+};
+constexpr FittedCosts fitted;
 
 // Cost of a contact relative to the law of the lattice.
 double contact_cost(const PairPlan& pair) {
@@ -85,33 +77,35 @@ bool rubs(const PairPlan& pair) {
     return pair.model.tangential != TangentialLaw::none;
 }
 
-// What a grain saves on its lists when steps are short: kLists at most.
+// What a grain saves on its lists when steps are short: `lists` at most.
 double saved_of_lists(const FilmedScene& scene, const Plan& plan) {
     const double steps = std::sqrt(mean_diameter(scene) / scene.gravity.norm()) / plan.clock.step;
-    return kLists * (1 - std::min(1.0, kStepsOfLists / steps));
+    return fitted.lists * (1 - std::min(1.0, fitted.steps_of_lists / steps));
 }
 
 // Cost of a grain's step relative to the lattice.
 double grain_cost(const FilmedScene& scene, const Plan& plan, double contacts) {
     const PairPlan& pair = commonest(scene, plan);
-    const double free = is_gas(scene) ? (rubs(pair) ? 1.0 : 0.5) * kGrainOfGas
-                        : rubs(pair)  ? kGrain - saved_of_lists(scene, plan)
-                                      : kGrainWithoutSpin;
+    const double free = is_gas(scene) ? (rubs(pair) ? 1.0 : 0.5) * fitted.grain_of_gas
+                        : rubs(pair)  ? fitted.grain - saved_of_lists(scene, plan)
+                                      : fitted.grain_without_spin;
     const auto forces = static_cast<double>(scheme_of(plan.integrator).stages.size());
-    const double beyond = std::log(std::max(1.0, static_cast<double>(scene.grains()) / kSmallBed)) /
-                          std::log(static_cast<double>(kLargeBed) / kSmallBed);
-    const double size = 1 + (kLargeBedCost - 1) * std::min(1.0, beyond);
-    return (free + kContact * contacts * contact_cost(pair)) * forces * size;
+    const double beyond =
+        std::log(std::max(1.0, static_cast<double>(scene.grains()) / fitted.small_bed_grains)) /
+        std::log(static_cast<double>(kLargeBed) / fitted.small_bed_grains);
+    const double size = 1 + (fitted.large_bed - 1) * std::min(1.0, beyond);
+    return (free + fitted.contact * contacts * contact_cost(pair)) * forces * size;
 }
 
 double contacts_at_rest(const FilmedScene& scene, const Plan& plan) {
     if (is_gas(scene)) return 0;
-    return rubs(commonest(scene, plan)) ? kAtRest : kAtRestWithoutFriction;
+    return rubs(commonest(scene, plan)) ? fitted.contacts_at_rest : fitted.contacts_without_friction;
 }
 
 // Contacts of a grain in a shaken bed. level: the largest acceleration along gravity, divided by gravity.
 double contacts_when_shaken(double at_rest, double level) {
-    return level <= 1 ? at_rest : kThrown + (at_rest - kThrown) * std::exp(-kFallsOff * (level - 1));
+    return level <= 1 ? at_rest
+                      : fitted.thrown + (at_rest - fitted.thrown) * std::exp(-fitted.falls_off * (level - 1));
 }
 
 double level_along_gravity(const FilmedScene& scene, double frequency, double amplitude) {
@@ -159,21 +153,21 @@ double packing_cost(const FilmedScene& scene, const Plan& plan, double& steps) {
     const auto grains = static_cast<double>(scene.grains_at_start());
     const double dense = grain_cost(scene, plan, contacts_at_rest(scene, plan));
     const double gravity = scene.gravity.norm();
-    double settling = 0, arriving = kGrowingSteps;
+    double settling = 0, arriving = fitted.growing_steps;
     if (gravity > 0)
-        settling =
-            kCalm * std::sqrt(mean_diameter(scene) / gravity) +
-            (rubs(commonest(scene, plan)) ? kFalling : kFallingWithoutFriction) * std::sqrt(9.81 / gravity);
+        settling = fitted.calm * std::sqrt(mean_diameter(scene) / gravity) +
+                   (rubs(commonest(scene, plan)) ? fitted.falling : fitted.falling_without_friction) *
+                       std::sqrt(9.81 / gravity);
     if (plan.start.relaxes) {
         // A bed from a file that is relaxed comes to rest soon after its grains have been stopped.
         steps = static_cast<double>(braking_steps(plan)) + settling / plan.clock.step;
-        return steps * (grains * dense + kStep);
+        return steps * (grains * dense + fitted.step);
     }
     // On average half of the grains are there while it rains.
     if (scene.start.method == Start::Method::rain)
         arriving = 0.5 * grains / rain_rate(scene) / plan.clock.step;
     steps = arriving + std::min(static_cast<double>(plan.settle_steps_limit), settling / plan.clock.step);
-    return steps * (grains * dense + kStep);
+    return steps * (grains * dense + fitted.step);
 }
 
 double measuring_cost(const FilmedScene& scene, const Plan& plan, double grains, double contacts) {
@@ -184,9 +178,10 @@ double measuring_cost(const FilmedScene& scene, const Plan& plan, double grains,
     };
     const bool balance = has("energy_balance");
     const double others = static_cast<double>(instruments.size()) - (balance ? 1 : 0);
-    double cost = steps / static_cast<double>(plan.measures_every) * grains * (kRow + others * kInstrument);
-    if (scene.output.fields.wanted()) cost += steps / plan.fields.every * grains * kFieldMoment;
-    const double look = kStep + grains * (kBalance + kBalanceContact * contacts);
+    double cost =
+        steps / static_cast<double>(plan.measures_every) * grains * (fitted.row + others * fitted.instrument);
+    if (scene.output.fields.wanted()) cost += steps / plan.fields.every * grains * fitted.field_moment;
+    const double look = fitted.step + grains * (fitted.balance + fitted.balance_contact * contacts);
     if (balance) cost += steps * look;
     if (has("wear")) cost += 0.5 * steps * look;  // at every second step
     return cost;
@@ -225,100 +220,9 @@ EngineCost engine_cost(const FilmedScene& scene, const Plan& plan) {
     const double grains = present(scene, plan), contacts = mean_contacts(scene, plan);
     cost.packing = packing_cost(scene, plan, cost.packing_steps);
     cost.run_steps = static_cast<double>(plan.steps);
-    cost.run = cost.run_steps * (grains * grain_cost(scene, plan, contacts) + kStep) +
+    cost.run = cost.run_steps * (grains * grain_cost(scene, plan, contacts) + fitted.step) +
                measuring_cost(scene, plan, grains, contacts);
     return cost;
-}
-
-namespace {
-
-using Json = nlohmann::json;
-namespace fs = std::filesystem;
-
-constexpr std::size_t most_films =
-    200;  // number of looks that are kept; when there are more, all are measured again
-constexpr std::uintmax_t largest_file = 1 << 20;
-
-// An ARM processor tells no name, but a number of its kind.
-std::string processor_name() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.rfind("model name", 0) == 0 || line.rfind("CPU part", 0) == 0)
-            return line.substr(line.find(':') + 1);
-    return "unknown";
-}
-
-bool sane(double value, double least, double most) {
-    return value >= least && value <= most;  // also false for NaN
-}
-
-bool sane_engine(double grain_steps) {
-    return sane(grain_steps, 1e3, 1e13);
-}
-
-bool sane_film(const FilmSpeed& speed) {
-    return sane(speed.seconds, 1e-6, 1e5) && sane(speed.drawing, 0, 1);
-}
-
-}  // namespace
-
-SpeedCache::SpeedCache()
-    : machine_(fmt::format("{} x {}, grainreel {}, {}", processor_name(), usable_processors(),
-                           build_info::version, vector_instructions())) {
-    const fs::path folder = cache_folder();
-    if (folder.empty()) return;
-    path_ = folder / fmt::format("speed-{:016x}.json", std::hash<std::string>()(machine_));
-    try {
-        if (is_own_folder(folder)) read();
-    } catch (const std::exception&) {  // the file is not one that save() has written
-        engine_.clear();
-        films_.clear();
-    }
-}
-
-void SpeedCache::read() {
-    if (!fs::is_regular_file(path_) || fs::file_size(path_) > largest_file) return;
-    const Json all = Json::parse(std::ifstream(path_));
-    if (all.at("machine").get<std::string>() != machine_) return;
-    for (const auto& [threads, speed] : all.at("engine").items())
-        if (sane_engine(speed.get<double>())) engine_[std::stoi(threads)] = speed.get<double>();
-    for (const auto& [look, film] : all.at("film").items()) {
-        const FilmSpeed speed{film.at("seconds").get<double>(), film.at("drawing").get<double>()};
-        if (sane_film(speed)) films_[look] = speed;
-    }
-}
-
-std::optional<double> SpeedCache::engine(int threads) const {
-    const auto found = engine_.find(threads);
-    return found == engine_.end() ? std::nullopt : std::optional(found->second);
-}
-
-std::optional<FilmSpeed> SpeedCache::film(const std::string& look) const {
-    const auto found = films_.find(look);
-    return found == films_.end() ? std::nullopt : std::optional(found->second);
-}
-
-void SpeedCache::keep_engine(int threads, double grain_steps) {
-    if (sane_engine(grain_steps)) engine_[threads] = grain_steps;
-}
-
-void SpeedCache::keep_film(const std::string& look, const FilmSpeed& speed) {
-    if (films_.size() >= most_films) films_.clear();
-    if (sane_film(speed)) films_[look] = speed;
-}
-
-void SpeedCache::save() const {
-    if (path_.empty()) return;
-    Json engine = Json::object(), films = Json::object();
-    for (const auto& [threads, speed] : engine_) engine[std::to_string(threads)] = speed;
-    for (const auto& [look, film] : films_)
-        films[look] = {{"seconds", film.seconds}, {"drawing", film.drawing}};
-    const Json all = {{"machine", machine_}, {"engine", engine}, {"film", films}};
-    try {
-        fs::create_directories(path_.parent_path().parent_path());
-        if (make_own_folder(path_.parent_path()).empty()) replace_file(path_, all.dump(1) + "\n");
-    } catch (const std::exception&) {  // when the cache cannot be kept, the speeds are measured again
-    }
 }
 
 }  // namespace grainreel

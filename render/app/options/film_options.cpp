@@ -148,7 +148,7 @@ std::string triple(const Vec3& v) {
 
 }  // namespace
 
-void add_camera_file(CLI::App& verb, CameraFiles& files, bool keep) {
+void add_camera_file(CLI::App& verb, CameraFiles& files, CameraOptions which) {
     const auto add = [&](const char* flag, std::optional<fs::path>& into, const char* about) {
         verb.add_option_function<std::string>(
                 flag,
@@ -161,7 +161,8 @@ void add_camera_file(CLI::App& verb, CameraFiles& files, bool keep) {
             ->check(not_empty());
     };
     add("--camera", files.use, "Take the camera from this file, which --keep-camera wrote");
-    if (keep) add("--keep-camera", files.keep, "Write the camera to a file, for --camera with other runs");
+    if (which == CameraOptions::use_and_keep)
+        add("--keep-camera", files.keep, "Write the camera to a file, for --camera with other runs");
 }
 
 void use_camera_file(const CameraFiles& files, Assignments& sets) {

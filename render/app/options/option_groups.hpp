@@ -111,8 +111,8 @@ struct CameraFiles {
     std::optional<std::filesystem::path> use, keep;
 };
 
-// --camera, and with `keep` also --keep-camera.
-void add_camera_file(CLI::App& verb, CameraFiles& files, bool keep = true);
+enum class CameraOptions { use, use_and_keep };  // --camera, and also --keep-camera
+void add_camera_file(CLI::App& verb, CameraFiles& files, CameraOptions which = CameraOptions::use_and_keep);
 
 // Adds the file's keys; values set on the command line override them. Throws UserError with the line's number
 // for anything that is no key of a camera.

@@ -42,8 +42,7 @@ class Compare final : public Verb {
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
         add_scene_keys(parser, request_.sets);
-        const bool keep = false;  // each panel has its own camera
-        add_camera_file(parser, camera_, keep);
+        add_camera_file(parser, camera_, CameraOptions::use);  // each panel has its own, so none is kept
         add_film(parser, film_,
                  "Folder of the film, which has a folder for each run [output/ and the scenes' names]");
         add_no_cache(parser, film_.keep_packings);

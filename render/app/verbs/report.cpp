@@ -55,7 +55,7 @@ std::optional<PlannedScene> planned_scene(const FilmedScene& scene) {
     }
 }
 
-std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const fs::path& out, bool checked,
+std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const fs::path& out, Damage damage,
                                        const PageProgress& progress) {
     std::vector<PageRun> all;
     for (const fs::path& run : runs) {
@@ -63,7 +63,7 @@ std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const 
         one.folder = folder_of_run(run);
         if (kept_moments(one.folder)) {
             FilmedRun filmed = open_filmed(one.folder, {});
-            if (!checked) filmed.run->check_all();
+            if (damage == Damage::looked_for) filmed.run->check_all();
             one.scene = std::move(filmed.scene);
             one.run = std::move(filmed.run);
         } else {
@@ -77,8 +77,7 @@ std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const 
 PageMaker page_of_ended_run() {
     return
         [](const fs::path& folder, const std::function<bool(double)>& go_on) -> std::optional<std::string> {
-            const bool checked = true;
-            if (!make_page_of({folder}, folder / kPageName, checked, go_on)) return std::nullopt;
+            if (!make_page_of({folder}, folder / kPageName, Damage::none, go_on)) return std::nullopt;
             return kPageName;
         };
 }
@@ -140,9 +139,8 @@ class Report final : public Verb {
         if (paper_.folder) return draw_charts(reporter);
         if (!out_.empty()) check_out(out_);
         const ShareWatcher watcher(reporter, Progress::Stage::paging);
-        const bool checked = false;
-        const ReportMade made =
-            *make_page_of(runs_, out_, checked, [&](double done) { return watcher("", done), true; });
+        const ReportMade made = *make_page_of(runs_, out_, Damage::looked_for,
+                                              [&](double done) { return watcher("", done), true; });
         for (const std::string& line : made.news) reporter.warning(line);
         reporter.info(fmt::format("wrote {} ({}); open it in a browser", made.file.string(),
                                   data_size_text(static_cast<double>(made.bytes))));

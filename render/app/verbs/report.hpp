@@ -13,12 +13,14 @@
 
 namespace grainreel {
 
+// Whether frames are checked for damage. Those that this program has just written need no check.
+enum class Damage { looked_for, none };
+
 // Makes the page of the runs in these folders, side by side where there are several. out: the page's file;
-// empty: report.html in the first run's folder. checked: this program has just written the runs, so their
-// frames need no check for damage. Returns none when `progress` stopped it. Throws UserError for a folder
-// that is no run, and RunError when the page cannot be made.
+// empty: report.html in the first run's folder. Returns none when `progress` stopped it. Throws UserError for
+// a folder that is no run, and RunError when the page cannot be made.
 std::optional<ReportMade> make_page_of(const std::vector<std::filesystem::path>& runs,
-                                       const std::filesystem::path& out, bool checked,
+                                       const std::filesystem::path& out, Damage damage,
                                        const PageProgress& progress);
 
 // The plan of a scene; none when this version of the program would not run the scene.

@@ -13,8 +13,9 @@ namespace {
 
 Pictures schedule(const FilmRequest& request, const FilmedScene& scene, const Plan& plan) {
     if (!request.film && !request.frames) return {};
-    const bool may_leave_out = true;
-    return {instants_of(scene, plan.clock, plan.steps), scene.film.segments, may_leave_out};
+    return {.instants = instants_of(scene, plan.clock, plan.steps),
+            .segments = scene.film.segments,
+            .may_leave_out = true};
 }
 
 ThreadPlan threads_for(const FilmRequest& request, const FilmedScene& scene) {

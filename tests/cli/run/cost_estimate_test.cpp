@@ -9,6 +9,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "render/app/estimate/engine_cost.hpp"
+#include "render/app/estimate/speed_cache.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
