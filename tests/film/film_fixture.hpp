@@ -13,6 +13,7 @@
 #include <string>
 
 #include "render/film/production/film_maker.hpp"
+#include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -141,11 +142,11 @@ inline FilmedScene small_scene(int width = 96, int height = 64) {
     return scene;
 }
 
-inline std::shared_ptr<Frame> frame_at(std::int64_t step, double interval = 0.1) {
-    auto frame = std::make_shared<Frame>();
-    frame->step = step;
-    frame->time = static_cast<double>(step) * interval;
-    return frame;
+inline std::shared_ptr<Shot> shot_at(std::int64_t step, double interval = 0.1) {
+    auto shot = std::make_shared<Shot>();
+    shot->step = step;
+    shot->time = static_cast<double>(step) * interval;
+    return shot;
 }
 
 }  // namespace grainreel::test

@@ -52,7 +52,7 @@ TEST_F(FilmMakerTest, EveryFrameIsInTheFilmInOrderFirstAndLastAsDrawn) {
     constexpr int count = 150;
     FilmMaker maker(small_scene(160, 96), options(),
                     painting([](const Frame& frame) { return ball(160, 96, static_cast<int>(frame.step)); }));
-    for (int i = 0; i < count; ++i) maker.take(frame_at(i), "real time");
+    for (int i = 0; i < count; ++i) maker.take(shot_at(i), "real time");
     const FilmResult result = maker.finish();
     EXPECT_EQ(result.frames, count);
     EXPECT_EQ(maker.frames_done(), count);
@@ -72,10 +72,10 @@ TEST_F(FilmMakerTest, EveryFrameIsInTheFilmInOrderFirstAndLastAsDrawn) {
 // The first picture with a caption is held for 0.2 s of film: 6 more frames at 30 a second.
 TEST_F(FilmMakerTest, StandsStillWhereACaptionBegins) {
     FilmedScene scene = small_scene(96, 64);
-    const double early = 0.5 * (frame_at(2)->time + frame_at(3)->time), late = frame_at(6)->time;
+    const double early = 0.5 * (shot_at(2)->time + shot_at(3)->time), late = shot_at(6)->time;
     scene.film.captions = {{early, late, "look", 0.2}, {late, 1e9, "again", 0}};
     FilmMaker maker(scene, options(), greys());
-    for (int i = 0; i < 8; ++i) maker.take(frame_at(i), "");
+    for (int i = 0; i < 8; ++i) maker.take(shot_at(i), "");
     EXPECT_EQ(maker.finish().frames, 8 + 6);
     const FilmFile played = film();
     ASSERT_THAT(played.frames, SizeIs(14));
@@ -93,7 +93,7 @@ TEST_F(FilmMakerTest, AFilmThatFlashesSaysSo) {
                             const int grey = frame.step / every % 2 ? 60 : 200;
                             return flat(96, 64, grey, grey, grey);
                         }));
-        for (int i = 0; i < 60; ++i) maker.take(frame_at(i), "");
+        for (int i = 0; i < 60; ++i) maker.take(shot_at(i), "");
         const std::string notes = fmt::format("{}", fmt::join(maker.finish().notes, "\n"));
         EXPECT_EQ(notes.find("flashes more than three times a second") != std::string::npos, every == 3)
             << notes;
@@ -111,9 +111,9 @@ TEST_F(FilmMakerTest, ASlowDrawerMakesTheEngineWaitAndLosesNothing) {
     int most = 0;
     for (int i = 0; i < count; ++i) {
         ++alive;
-        auto counted = std::shared_ptr<Frame>(new Frame(*frame_at(i)), [&](Frame* frame) {
+        auto counted = std::shared_ptr<Shot>(new Shot(*shot_at(i)), [&](Shot* shot) {
             --alive;
-            delete frame;
+            delete shot;
         });
         maker.take(std::move(counted), "");
         most = std::max(most, alive.load());
@@ -128,7 +128,7 @@ TEST_F(FilmMakerTest, ASlowDrawerMakesTheEngineWaitAndLosesNothing) {
 
 TEST_F(FilmMakerTest, FramesAloneAreNumberedExactPicturesWithTimeAndScene) {
     FilmMaker maker(small_scene(), options(false, true), greys());
-    for (int i = 0; i < 12; ++i) maker.take(frame_at(i, 0.25), "slow motion, 1/10 speed");
+    for (int i = 0; i < 12; ++i) maker.take(shot_at(i, 0.25), "slow motion, 1/10 speed");
     EXPECT_EQ(maker.finish().frames, 12);
     EXPECT_FALSE(std::filesystem::exists(folder / "movie.mp4"));
     EXPECT_FALSE(std::filesystem::exists(folder / "poster.png"));
@@ -147,7 +147,7 @@ TEST_F(FilmMakerTest, FramesAloneAreNumberedExactPicturesWithTimeAndScene) {
 
 TEST_F(FilmMakerTest, FilmAndFramesTogether) {
     FilmMaker maker(small_scene(), options(true, true), greys());
-    for (int i = 0; i < 5; ++i) maker.take(frame_at(i), "");
+    for (int i = 0; i < 5; ++i) maker.take(shot_at(i), "");
     maker.finish();
     EXPECT_THAT(film().frames, SizeIs(5));
     EXPECT_TRUE(std::filesystem::exists(folder / "frames" / "000004.png"));
@@ -161,14 +161,14 @@ TEST_F(FilmMakerTest, ThePosterIsTheLastFrameOfTheLastLockedSegment) {
     close.duration = 3;
     scene.film.segments = {open, locked, close};  // the locked one ends after 7 s
     FilmMaker maker(scene, options(), greys());
-    for (int i = 0; i < 50; ++i) maker.take(frame_at(i, 0.2), "");
+    for (int i = 0; i < 50; ++i) maker.take(shot_at(i, 0.2), "");
     maker.finish();
     EXPECT_EQ(poster_grey(), grey_of(35));  // 35 * 0.2 s = 7 s
 }
 
 TEST_F(FilmMakerTest, AFilmThatEndsEarlyHasItsLastFrameAsPoster) {
     FilmMaker maker(small_scene(), options(), greys());
-    for (int i = 0; i < 20; ++i) maker.take(frame_at(i), "");  // 2 s of 10 s
+    for (int i = 0; i < 20; ++i) maker.take(shot_at(i), "");  // 2 s of 10 s
     maker.finish();
     EXPECT_EQ(poster_grey(), grey_of(19));
 }
@@ -177,7 +177,7 @@ TEST_F(FilmMakerTest, WithoutFinishTheFilmPlaysAndHasAPoster) {
     std::int64_t done = 0;
     {
         FilmMaker maker(small_scene(), options(), greys());
-        for (int i = 0; i < 40; ++i) maker.take(frame_at(i), "");
+        for (int i = 0; i < 40; ++i) maker.take(shot_at(i), "");
         done = maker.frames_done();
     }
     const FilmFile played = film();
@@ -202,7 +202,7 @@ TEST_F(FilmMakerTest, WhoIsInAHurryLeavesAFilmOfTheLengthThatIsTold) {
                             const int grey = grey_of(frame.step);
                             return flat(96, 64, grey, grey, grey);
                         }));
-        for (int i = 0; i < 40; ++i) maker.take(frame_at(i), "");
+        for (int i = 0; i < 40; ++i) maker.take(shot_at(i), "");
         const FilmResult result = maker.finish([&] { return hurry.load(); });
         EXPECT_FALSE(result.complete);
         EXPECT_GE(result.frames, 1);
@@ -225,7 +225,7 @@ TEST_F(FilmMakerTest, WhoIsInAHurryLeavesAFilmOfTheLengthThatIsTold) {
 
 TEST_F(FilmMakerTest, WhoIsInNoHurryGetsAWholeFilm) {
     FilmMaker maker(small_scene(), options(), greys());
-    for (int i = 0; i < 20; ++i) maker.take(frame_at(i), "");
+    for (int i = 0; i < 20; ++i) maker.take(shot_at(i), "");
     const FilmResult result = maker.finish([] { return false; });
     EXPECT_TRUE(result.complete);
     EXPECT_TRUE(result.poster);
@@ -240,10 +240,10 @@ TEST_F(FilmMakerTest, AFolderThatIsNoLongerOursGetsNoFiles) {
         if (lost) throw RunError("the folder was renamed");
     };
     FilmMaker maker(small_scene(), o, greys());
-    for (int i = 0; i < 5; ++i) maker.take(frame_at(i), "");
+    for (int i = 0; i < 5; ++i) maker.take(shot_at(i), "");
     while (maker.frames_done() < 5) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     lost = true;
-    maker.take(frame_at(5), "");
+    maker.take(shot_at(5), "");
     try {
         maker.finish();
         ADD_FAILURE() << "no error";
@@ -275,7 +275,7 @@ TEST_F(FilmMakerTest, NothingTakenIsNoReasonToHang) {
 std::string failure_of(FilmMaker& maker, int most = 10'000) {
     std::string words = "no error";
     try {
-        for (int i = 0; i < most; ++i) maker.take(frame_at(i), "");
+        for (int i = 0; i < most; ++i) maker.take(shot_at(i), "");
         maker.finish();
     } catch (const RunError& error) {
         words = error.what();
@@ -334,7 +334,7 @@ TEST_F(FilmMakerTest, KilledItPlaysUpToTheLastTwoSecondsAndHasAPoster) {
         FilmedScene scene = small_scene();
         scene.run.duration = 1000;
         FilmMaker maker(scene, options(), greys());
-        for (int i = 0; i < 200; ++i) maker.take(frame_at(i), "");
+        for (int i = 0; i < 200; ++i) maker.take(shot_at(i), "");
         const std::int64_t done = maker.frames_done();
         if (write(pipe_ends[1], &done, sizeof done) != sizeof done) _exit(1);
         kill(getpid(), SIGKILL);

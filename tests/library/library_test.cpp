@@ -137,7 +137,8 @@ TEST(LibraryRun, StopsWhenLookSaysSo) {
         const gr::RunEnd end = gr::run(scene(), options);
         EXPECT_FALSE(end.complete);
         ASSERT_EQ(times.size(), 4u);
-        for (std::size_t k = 0; k < times.size(); ++k) EXPECT_NEAR(times[k], 0.01 * k, 1e-4);
+        for (std::size_t k = 0; k < times.size(); ++k)
+            EXPECT_NEAR(times[k], 0.01 * static_cast<double>(k), 1e-4);
         EXPECT_EQ(end.frame.time, times.back());
     }
     EXPECT_TRUE(ended(here / "run", "interrupted"));

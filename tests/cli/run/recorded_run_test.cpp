@@ -200,7 +200,7 @@ TEST_F(Recorded, GivesMeansAndExposuresWhereItHasTheirMoments) {
     exposed.exposures = 4;
     record.start({{{0.15, 1}, {0.2, 0}}, {mean, exposed}, false});
     const auto go_on = [] { return true; };
-    const Frame four = *record.next(go_on)->frame, averaged = *record.next(go_on)->frame;
+    const Shot four = *record.next(go_on)->frame, averaged = *record.next(go_on)->frame;
     const FrameArchive& archive = record.run();
     const std::size_t at = archive.nearest(0.2);
     Vec3 expected = Vec3::Zero();
