@@ -44,8 +44,8 @@ Snapshot kept_snapshot(const StoredRun& run, std::size_t index, bool with_ways =
 // Brings a moment back from the checkpoints, with its forces. Throws UserError where no checkpoint leads
 // there.
 Snapshot brought_back_snapshot(StoredRun& run, const AskedMoment& moment, const ReplayWatcher& watcher);
-// Does the same and adds how far grains moved in the last period of the drive (Snapshot::displacement), as the
-// film counts it. Throws UserError also where the run has no drive, or does not reach back so far.
+// Does the same and adds how far grains moved in the last period of the drive (Snapshot::displacement), as
+// the film counts it. Throws UserError also where the run has no drive, or does not reach back so far.
 Snapshot brought_back_with_ways(StoredRun& run, const AskedMoment& moment, const ReplayWatcher& watcher);
 
 // Calls `see` with moments of the last `periods` periods of the drive before `moment`, and with `moment`

@@ -42,7 +42,7 @@ class RedrawRun final : public FilmRun {
     std::string caption_of(const Taken& picture) const;
 
     StoredShots& source_;
-    FilmedScene scene_;        // the run's scene, with a film of these pictures
+    FilmedScene scene_;       // the run's scene, with a film of these pictures
     std::vector<Due> shots_;  // the film's shots, each at the step that is shown
     std::optional<FilmInParts> parts_;
     bool kept_alone_ = false;                                     // only frames of the trajectory are drawn

@@ -49,7 +49,7 @@ std::vector<WantedMoment> PictureParts::moments(std::int64_t step, const FilmSeg
 void PictureParts::add(Shot& shot, const FilmSegment& rule, int periods, Beside beside,
                        const OtherMoments& others) const {
     for (const std::int64_t step : earlier(shot.step, periods))
-        if (const FramePtr before = others(step)) 
+        if (const FramePtr before = others(step))
             shot.displacement = displacement_since(*before, shot, periods, depth_);
     for (const std::int64_t step : exposed(shot.step, rule, periods))
         if (const FramePtr moment = others(step))

@@ -47,7 +47,8 @@ class PictureParts {
 
     // Adds what is beside the moment, and what others() can give. A grain that is missing at an earlier
     // moment gets no displacement or no mean.
-    void add(Shot& shot, const FilmSegment& rule, int periods, Beside beside, const OtherMoments& others) const;
+    void add(Shot& shot, const FilmSegment& rule, int periods, Beside beside,
+             const OtherMoments& others) const;
 
   private:
     // Steps of the moments that displacements, the exposure and the mean need; empty when the picture has no

@@ -132,15 +132,14 @@ Taken SceneRun::next_earlier() {
     Shot shot = moments.grains(index);
     add_planes(scene_.walls, shot.time, shot.bodies);
     const auto due = std::lower_bound(shots_.begin(), shots_.end(), shot.step,
-                                       [](const Due& one, std::int64_t step) { return one.step < step; });
+                                      [](const Due& one, std::int64_t step) { return one.step < step; });
     GRAINREEL_CHECK(due != shots_.end() && due->step == shot.step);
     const int periods = scene_.film.periods > 0 ? scene_.film.periods : earlier_->periods.at(shot.step);
     Beside beside = beside_now(shot.time);
     if (beside.measures)
-        beside.measure_rows =
-            static_cast<std::size_t>(std::upper_bound(earlier_->steps.begin(), earlier_->steps.end(),
-                                                      static_cast<double>(shot.step)) -
-                                     earlier_->steps.begin());
+        beside.measure_rows = static_cast<std::size_t>(
+            std::upper_bound(earlier_->steps.begin(), earlier_->steps.end(), static_cast<double>(shot.step)) -
+            earlier_->steps.begin());
     if (wear_before_) beside.worn = wear_before_->until(shot.time);
     parts_->add(shot, rule(due->segment), periods, std::move(beside),
                 [](std::int64_t) { return FramePtr(); });

@@ -66,7 +66,7 @@ struct Asked {
 
 // The picture, made in both ways, which must give the same.
 Shot picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grain,
-              const PlaceAt& wall = at_rest, std::int64_t first = 0) {
+             const PlaceAt& wall = at_rest, std::int64_t first = 0) {
     Shot at_will = frame_at(asked.shot, grain(asked.shot), wall(asked.shot)), passing = at_will;
     parts.add(at_will, asked.rule, asked.periods, {}, any_moment(grain, wall, first));
     KeptMoments kept;
@@ -207,7 +207,7 @@ TEST(PictureParts, OfAMeanGoTheShortWayRoundAPeriodicContainer) {
 
 TEST(PictureParts, OfAMeanTakeTheBedToHaveRestedBeforeTheRun) {
     const Shot now = picture(PictureParts(FilmedScene(), kClock, 0), {400, mean_of(1)},
-                              [](std::int64_t step) { return Vec3(0, 0, 1e-5 * static_cast<double>(step)); });
+                             [](std::int64_t step) { return Vec3(0, 0, 1e-5 * static_cast<double>(step)); });
     double expected = 0;  // 9 samples are from step 0 to 400, and 7 are at rest
     for (int k = 0; k <= 8; ++k) expected += 1e-5 * 50 * k / 16;
     EXPECT_NEAR(now.position[0].z(), expected, 1e-15);
