@@ -191,7 +191,7 @@ TEST(Feed, IntoAFullContainerStops) {
         run.advance(make_plan(scene).steps);
         FAIL() << run.grains();
     } catch (const RunError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("box.toml:24:1: at "));
+        EXPECT_THAT(error.what(), HasSubstr("box.toml:23:1: at "));
         EXPECT_THAT(error.what(), HasSubstr("lower the 'rate'"));
     }
 }
