@@ -7,11 +7,9 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/files/measures_csv.hpp"
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/files/trajectory/trajectory.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/handover/dump_tail.hpp"
 #include "engine/handover/engine_job.hpp"
@@ -19,11 +17,9 @@
 #include "engine/handover/returned_health.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/run/import/import_measures.hpp"
+#include "engine/run/import/arrival.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "engine/state/body.hpp"
 #include "engine/state/traffic.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 
@@ -155,10 +151,15 @@ TrajectoryInfo info_of(const Scene& scene, const Plan& plan, const std::string& 
     return info;
 }
 
-// Adds the column that ReturnedHealth fills. In our own runs an observer in the step loop fills it.
-Measures::Names with_overlap(std::vector<std::string> names) {
-    names.emplace_back("largest_overlap");
-    return std::make_shared<const std::vector<std::string>>(std::move(names));
+ArrivalFacts arrival_facts(const Scene& scene, const Plan& plan, const HandoverFacts& facts,
+                           const std::string& version) {
+    ArrivalFacts all;
+    all.header = info_of(scene, plan, version);
+    all.clock = plan.clock;
+    all.in_container = facts.frame == RunFrame::container;
+    // ReturnedHealth fills this column. In our own runs an observer in the step loop does.
+    all.more_columns = {"largest_overlap"};
+    return all;
 }
 
 }  // namespace
@@ -172,13 +173,8 @@ struct ReturnedRun::Impl {
           facts(facts_in),
           dump(facts.dump),
           count(scene, facts.dump.string()),
-          motion(scene.drive, plan.clock),
-          bodies(bodies_of(scene)),
-          trajectory(folder / "trajectory.nc", info_of(scene, plan, version)),
-          measures(scene, plan.clock, FrameSupply()),
           health(scene, plan),
-          names(with_overlap(measures.names())),
-          table(folder / "measures.csv", *names) {
+          arrival(folder, scene, arrival_facts(scene, plan, facts, version)) {
         if (scene.container.outlet && !scene.container.tray) outflow.emplace(folder / "outflow.csv");
     }
 
@@ -196,11 +192,6 @@ struct ReturnedRun::Impl {
         Frame frame;
         frame.step = rows.step - facts.shift;
         frame.time = plan.clock.time(frame.step);
-        frame.cycles = plan.clock.cycles(frame.step);
-        frame.phase = plan.clock.phase(frame.step);
-        const Pose drive = motion.at(frame.step);
-        frame.bodies = poses_of(bodies, drive);
-        const bool rode = facts.frame == RunFrame::container;
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const std::int64_t species = rows.type[i] - 1;
             if (species < 0 || species >= std::ssize(scene.species) || !(rows.radius[i] > 0))
@@ -211,10 +202,11 @@ struct ReturnedRun::Impl {
             frame.id.push_back(id_of(rows.id[i]));
             frame.species.push_back(static_cast<std::int32_t>(species));
             frame.radius.push_back(rows.radius[i]);
-            frame.position.push_back(rows.position[i] + (rode ? drive.offset : Vec3(0, 0, 0)));
-            frame.velocity.push_back(rows.velocity[i] + (rode ? drive.velocity : Vec3(0, 0, 0)));
-            frame.spin.push_back(rows.spin[i]);
         }
+        frame.position = rows.position;
+        frame.velocity = rows.velocity;
+        frame.spin = rows.spin;
+        arrival.complete(frame);
         return frame;
     }
 
@@ -241,13 +233,8 @@ struct ReturnedRun::Impl {
     const HandoverFacts facts;
     DumpTail dump;
     const GrainCount count;
-    const WallMotion motion;
-    const std::vector<Body> bodies;
-    TrajectoryWriter trajectory;
-    ImportMeasures measures;
     ReturnedHealth health;
-    const Measures::Names names;
-    MeasuresWriter table;
+    Arrival arrival;
     std::optional<OutflowWriter> outflow;
     std::optional<Frame> last;
 };
@@ -268,10 +255,7 @@ bool ReturnedRun::take_next() {
     const GrainCount::Change change = m.count.compare(m.last ? &*m.last : nullptr, frame);
     const double overlap = m.health.look(frame);
     m.note_outflow(change.left, frame.step);
-    m.trajectory.write(frame);
-    std::vector<double> row = m.measures.row(frame, {}).values();
-    row.push_back(overlap);
-    m.table.write({m.names, std::move(row)});
+    m.arrival.take(frame, {}, {overlap});
     m.last = std::move(frame);
     return true;
 }
@@ -286,8 +270,8 @@ void ReturnedRun::read_anew() {
 
 void ReturnedRun::close(RunJson& record) {
     Impl& m = *impl_;
-    record.trajectory_frames = m.trajectory.frames();
-    record.measures_rows = m.table.rows();
+    record.trajectory_frames = m.arrival.frames();
+    record.measures_rows = m.arrival.rows();
     if (!m.last) return;
     record.steps = m.last->step;
     record.simulated = m.last->time;
@@ -295,7 +279,7 @@ void ReturnedRun::close(RunJson& record) {
 }
 
 std::int64_t ReturnedRun::frames() const {
-    return impl_->trajectory.frames();
+    return impl_->arrival.frames();
 }
 
 const Frame* ReturnedRun::last() const {

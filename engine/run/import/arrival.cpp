@@ -29,6 +29,11 @@ std::vector<SavedContact> records_of(const std::vector<Touch>& touches, const Fr
     return records;
 }
 
+Measures::Names joined(std::vector<std::string> names, const std::vector<std::string>& more) {
+    names.insert(names.end(), more.begin(), more.end());
+    return std::make_shared<const std::vector<std::string>>(std::move(names));
+}
+
 }  // namespace
 
 Arrival::Arrival(const std::filesystem::path& folder, const Scene& scene, ArrivalFacts facts)
@@ -39,7 +44,8 @@ Arrival::Arrival(const std::filesystem::path& folder, const Scene& scene, Arriva
       bodies_(bodies_of(scene)),
       trajectory_(folder / "trajectory.nc", facts_.header),
       measures_(scene, facts_.clock, facts_.supply),
-      table_(folder / "measures.csv", measures_.names()),
+      names_(joined(measures_.names(), facts_.more_columns)),
+      table_(folder / "measures.csv", *names_),
       ranges_(scene, facts_.supply) {
     if (facts_.supply.contacts)
         contacts_.emplace(folder / "contacts.nc", facts_.header.title, facts_.header.program_version,
@@ -59,11 +65,13 @@ void Arrival::complete(Frame& frame) const {
     }
 }
 
-void Arrival::take(const Frame& frame, const std::vector<Touch>& touches) {
+void Arrival::take(const Frame& frame, const std::vector<Touch>& touches, const std::vector<double>& more) {
     const std::int64_t number = trajectory_.frames();
     trajectory_.write(frame);
     if (contacts_) contacts_->write(number, records_of(touches, frame));
-    table_.write(measures_.row(frame, touches));
+    std::vector<double> row = measures_.row(frame, touches).values();
+    row.insert(row.end(), more.begin(), more.end());
+    table_.write({names_, std::move(row)});
     if (facts_.ranges) ranges_.add(frame, touches);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/base/clock.hpp"
@@ -27,6 +28,8 @@ struct ArrivalFacts {
     Clock clock{};
     bool in_container = false;  // places and velocities of the frames are against the moving container
     bool ranges = false;        // whether close() writes ranges.csv
+    // Columns of measures.csv whose values take() gets.
+    std::vector<std::string> more_columns{};
 };
 
 class Arrival {
@@ -37,12 +40,14 @@ class Arrival {
     // Completes a frame that has step, time and grains as a run of the scene would write it: with the drive's
     // clock, the poses of the bodies, and the grains in the room.
     void complete(Frame& frame) const;
-    // Writes a completed frame and its contacts. Throws RunError where it cannot be written.
-    void take(const Frame& frame, const std::vector<Touch>& touches);
+    // Writes a completed frame and its contacts. more: the values of more_columns. Throws RunError where it
+    // cannot be written.
+    void take(const Frame& frame, const std::vector<Touch>& touches, const std::vector<double>& more = {});
     // Writes what is known only after the last frame.
     void close();
 
     std::int64_t frames() const { return trajectory_.frames(); }
+    std::int64_t rows() const { return table_.rows(); }  // of measures.csv
 
   private:
     const std::filesystem::path folder_;
@@ -53,6 +58,7 @@ class Arrival {
     TrajectoryWriter trajectory_;
     std::optional<ContactsWriter> contacts_;
     ImportMeasures measures_;
+    const Measures::Names names_;  // of all columns of measures.csv
     MeasuresWriter table_;
     ImportRanges ranges_;
 };
