@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <chrono>
-#include <limits>
 #include <thread>
 #include <utility>
 
@@ -11,8 +10,9 @@
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/grain_table.hpp"
-#include "engine/handover/dump_tail.hpp"
+#include "engine/handover/deck_dump.hpp"
 #include "engine/handover/engine_job.hpp"
+#include "engine/handover/grain_count.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/handover/returned_health.hpp"
 #include "engine/measure/columns.hpp"
@@ -182,30 +182,26 @@ struct ReturnedRun::Impl {
     // those of the start and those that are fed.
     std::int32_t id_of(std::int64_t there) const {
         const std::int64_t id = there <= facts.grains ? there - 1 : there - 1 - facts.glued;
-        if (id < 0 || id > std::numeric_limits<std::int32_t>::max())
+        if (id < 0)
             throw UserError(
                 fmt::format("{}: has an atom {}, which is none of the scene's", facts.dump.string(), there));
         return static_cast<std::int32_t>(id);
     }
 
-    Frame frame_of(const DumpRows& rows) const {
-        Frame frame;
-        frame.step = rows.step - facts.shift;
-        frame.time = plan.clock.time(frame.step);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const std::int64_t species = rows.type[i] - 1;
-            if (species < 0 || species >= std::ssize(scene.species) || !(rows.radius[i] > 0))
+    // The frame of the dump with our steps and ids, in the room.
+    Frame ours(Frame frame) const {
+        for (std::size_t i = 0; i < frame.size(); ++i) {
+            const std::int32_t species = frame.species[i];
+            if (species < 0 || species >= std::ssize(scene.species) || !(frame.radius[i] > 0))
                 throw UserError(
                     fmt::format("{}: step {}: atom {} has type {} and radius {}, which none of the "
                                 "scene's grains has",
-                                facts.dump.string(), rows.step, rows.id[i], rows.type[i], rows.radius[i]));
-            frame.id.push_back(id_of(rows.id[i]));
-            frame.species.push_back(static_cast<std::int32_t>(species));
-            frame.radius.push_back(rows.radius[i]);
+                                facts.dump.string(), frame.step, frame.id[i], std::int64_t{species} + 1,
+                                frame.radius[i]));
+            frame.id[i] = id_of(frame.id[i]);
         }
-        frame.position = rows.position;
-        frame.velocity = rows.velocity;
-        frame.spin = rows.spin;
+        frame.step -= facts.shift;
+        frame.time = plan.clock.time(frame.step);
         arrival.complete(frame);
         return frame;
     }
@@ -231,7 +227,7 @@ struct ReturnedRun::Impl {
     const Scene& scene;
     const Plan& plan;
     const HandoverFacts facts;
-    DumpTail dump;
+    DeckDump dump;
     const GrainCount count;
     ReturnedHealth health;
     Arrival arrival;
@@ -247,11 +243,11 @@ ReturnedRun::~ReturnedRun() = default;
 
 bool ReturnedRun::take_next() {
     Impl& m = *impl_;
-    const std::optional<DumpRows> rows = m.dump.next();
-    if (!rows) return false;
+    std::optional<Frame> there = m.dump.next();
+    if (!there) return false;
     // A run that continued from the engine's restart file writes its first moment once more.
-    if (m.last && rows->step - m.facts.shift <= m.last->step) return true;
-    Frame frame = m.frame_of(*rows);
+    if (m.last && there->step - m.facts.shift <= m.last->step) return true;
+    Frame frame = m.ours(std::move(*there));
     const GrainCount::Change change = m.count.compare(m.last ? &*m.last : nullptr, frame);
     const double overlap = m.health.look(frame);
     m.note_outflow(change.left, frame.step);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -272,6 +273,44 @@ JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
     }
     end.failure = ended_with(facts.engine, status, folder / output_name(facts.engine));
     return end;
+}
+
+std::optional<std::int64_t> newest_restart(const fs::path& folder, PeerEngine engine) {
+    const std::string begin = restart_name(engine) + ".";
+    std::optional<std::int64_t> newest;
+    std::error_code missing;
+    for (const fs::directory_entry& one : fs::directory_iterator(folder, missing)) {
+        const std::string name = one.path().filename().string();
+        if (!name.starts_with(begin)) continue;
+        std::int64_t step = 0;
+        const char* const end = name.data() + name.size();
+        const auto read = std::from_chars(name.data() + begin.size(), end, step);
+        if (read.ec == std::errc() && read.ptr == end) newest = std::max(newest.value_or(0), step);
+    }
+    return newest;
+}
+
+void take_forced_restarts(const fs::path& folder, const fs::path& output) {
+    bool whole = false;
+    std::ifstream said(output);
+    for (std::string line; !whole && std::getline(said, line);)
+        whole = line.find(forced_words) != std::string::npos;
+    std::vector<fs::path> forced;
+    std::error_code missing;
+    for (const fs::directory_entry& one : fs::directory_iterator(folder, missing))
+        if (one.path().filename().string().starts_with(forced_begin)) forced.push_back(one.path());
+    const std::string begin = forced_begin, end = forced_end;
+    for (const fs::path& one : forced) {
+        const std::string name = one.filename().string();
+        if (whole && name.ends_with(end))
+            fs::rename(
+                one,
+                folder / fmt::format("{}.{}", restart_name(PeerEngine::liggghts),
+                                     name.substr(begin.size(), name.size() - begin.size() - end.size())),
+                missing);
+        else
+            fs::remove(one, missing);
+    }
 }
 
 std::string came_so_far(const fs::path& folder, const HandoverFacts& facts, double until, double wanted) {

@@ -94,6 +94,14 @@ struct JobEnd {
 };
 JobEnd job_end(const std::filesystem::path& folder, const HandoverFacts& facts);
 
+// The step of the newest restart file in the folder of a deck; none where there is no restart file.
+std::optional<std::int64_t> newest_restart(const std::filesystem::path& folder, PeerEngine engine);
+
+// When a signal asks LIGGGHTS to end, it writes a restart file under another name. If the output says that
+// this file is whole, the function gives it the name of the others, so that the run goes on from there.
+// Otherwise it removes the file.
+void take_forced_restarts(const std::filesystem::path& folder, const std::filesystem::path& output);
+
 // "LAMMPS has come to 0.1 s of 0.3 s; what there is is shown", with why it ended if that is known. until:
 // s, simulated so far. wanted: s, simulated in all.
 std::string came_so_far(const std::filesystem::path& folder, const HandoverFacts& facts, double until,

@@ -259,7 +259,7 @@ class Deck {
         add("thermo {}", std::max<std::int64_t>(1, steps / 100));
         add("thermo_style custom step atoms ke cpu");
         // With an exit plane below an outlet, missing grains are no error for LIGGGHTS. If a grain was lost
-        // in another way, our reader of the dump throws (dump_tail.hpp).
+        // in another way, our count of grains throws (grain_count.hpp).
         add("thermo_modify lost {} norm no", exit_plane(carried_).empty() ? "error" : "ignore");
     }
 

@@ -73,7 +73,7 @@ Impacts impacts(PeerEngine engine, double speed, const std::string& law) {
     EXPECT_EQ(run_engine(EngineJob(engine, 1, deck_name(engine)), folder.path()), "");
     const auto frames = frames_of(engine, folder.path());
     if (frames.empty() || frames.rbegin()->second.size() != 8) return {};
-    const DumpRows& last = frames.rbegin()->second;
+    const Frame& last = frames.rbegin()->second;
     const auto apart = [&](std::size_t k) { return (last.velocity[k + 1] - last.velocity[k]).y() / speed; };
     return {apart(0), apart(2), apart(4), last.velocity[6].z() / speed, last.velocity[7].z() / speed};
 }

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "engine/handover/deck_dump.hpp"
 #include "engine/handover/decks.hpp"
-#include "engine/handover/dump_tail.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "tests/engines/handed.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -43,7 +43,7 @@ class EngineGoesOn : public testing::TestWithParam<PeerEngine> {
         EXPECT_EQ(run_engine(EngineJob(engine, 1, deck_name(engine), restart), folder.path()), "");
         const auto again = frames_of(engine, folder.path());
         EXPECT_EQ(again.size(), whole.size());
-        const DumpRows &then = whole.at(3250), &now = again.at(3250);
+        const Frame &then = whole.at(3250), &now = again.at(3250);
         EXPECT_EQ(then.size(), 60u);
         double most = 0;
         for (std::size_t i = 0; i < then.size(); ++i)

@@ -57,10 +57,10 @@ std::string run_engine(EngineJob job, const std::filesystem::path& folder) {
     return job.failure();
 }
 
-std::map<std::int64_t, DumpRows> frames_of(PeerEngine engine, const std::filesystem::path& folder) {
-    std::map<std::int64_t, DumpRows> all;
-    DumpTail dump(folder / dump_name(engine));
-    while (std::optional<DumpRows> rows = dump.next()) {
+std::map<std::int64_t, Frame> frames_of(PeerEngine engine, const std::filesystem::path& folder) {
+    std::map<std::int64_t, Frame> all;
+    DeckDump dump(folder / dump_name(engine));
+    while (std::optional<Frame> rows = dump.next()) {
         const std::int64_t step = rows->step;
         all[step] = std::move(*rows);
     }

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/handover/carry.hpp"
-#include "engine/handover/dump_tail.hpp"
+#include "engine/handover/deck_dump.hpp"
 #include "engine/handover/engine_job.hpp"
 
 namespace grainreel {
@@ -37,7 +37,7 @@ CarriedScene hand_over(const std::string& text, const CarryRequest& request,
 std::string run_engine(EngineJob job, const std::filesystem::path& folder);
 
 // All frames of the dump in the folder, by the engine's step.
-std::map<std::int64_t, DumpRows> frames_of(PeerEngine engine, const std::filesystem::path& folder);
+std::map<std::int64_t, Frame> frames_of(PeerEngine engine, const std::filesystem::path& folder);
 
 // For tests and their SetUp(): skips where the engine is missing. Under `./test --peers`, which is for these
 // tests and installs the engines, that is a failure.

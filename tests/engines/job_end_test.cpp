@@ -45,7 +45,7 @@ class EarlyEnd : public testing::TestWithParam<PeerEngine> {
         std::string script = (folder_ / "run.sh").string(), shell = "sh";
         char* words[] = {shell.data(), script.data(), nullptr};
         ASSERT_EQ(::posix_spawnp(&job_, "sh", nullptr, nullptr, words, environ), 0);
-        DumpTail dump(folder_ / dump_name(GetParam()));
+        DeckDump dump(folder_ / dump_name(GetParam()));
         for (int frames = 0; frames < 5 && runs();) {
             if (dump.next())
                 ++frames;

@@ -14,7 +14,7 @@ namespace {
 
 struct ScriptRun {
     CarriedScene carried;
-    std::map<std::int64_t, DumpRows> dump;
+    std::map<std::int64_t, Frame> dump;
     int status = 0;
     std::string words;  // of the engine
 };

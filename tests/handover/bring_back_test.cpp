@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/handover/decks.hpp"
-#include "engine/handover/dump_tail.hpp"
 #include "engine/handover/engine_job.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/error.hpp"
 #include "engine/base/triangle_mesh.hpp"
 #include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/world.hpp"
@@ -58,6 +59,7 @@ struct RawMoment {
     std::optional<double> time{};  // in the file's unit of time
     std::int64_t grains = 0;
     bool has_contacts = false, has_walls = false;
+    bool open = false;  // more of it may come: no line ends behind its last row
 };
 
 // Facts that hold for the whole file.
@@ -73,13 +75,19 @@ struct RawFacts {
     bool scaled_places = false;  // columns x, y, z are fractions of the box (old dumps without names)
 };
 
+// The file has no whole frame, but may get one.
+class NotYetWhole : public UserError {
+  public:
+    using UserError::UserError;
+};
+
 class RawFile {
   public:
     virtual ~RawFile() = default;
 
     virtual const RawFacts& facts() const = 0;
     // All whole frames, in the order of the file. A frame that is cut at the end is left out, with a line of
-    // news(). If no frame is whole, opening the file throws UserError.
+    // news(). If no frame is whole, opening the file throws UserError (a dump: NotYetWhole).
     virtual const std::vector<RawMoment>& moments() const = 0;
     // Reads a frame. Throws UserError "FILE:LINE: what is wrong; what to do" (a byte in place of the line for
     // binary files). Counts are checked against the file's size before memory is asked for.

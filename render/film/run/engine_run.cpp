@@ -13,7 +13,7 @@
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/handover/decks.hpp"
-#include "engine/handover/dump_tail.hpp"
+#include "engine/handover/deck_dump.hpp"
 #include "engine/handover/start_state.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "render/film/sampling/film_frames.hpp"

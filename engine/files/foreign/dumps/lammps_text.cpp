@@ -160,10 +160,10 @@ void LammpsText::find_frames() {
 }
 
 void LammpsText::refuse_without_frame() const {
-    if (!index_.cut) throw UserError(fmt::format("{}: holds no frame", shown(file_)));
-    refuse_line(
-        file_, index_.cut->line,
-        fmt::format("no frame of this file is whole, neither is the one that begins here: {}", cut_words()));
+    if (!index_.cut) throw NotYetWhole(fmt::format("{}: holds no frame", shown(file_)));
+    throw NotYetWhole(
+        fmt::format("{}:{}: no frame of this file is whole, neither is the one that begins here: {}",
+                    shown(file_), index_.cut->line, cut_words()));
 }
 
 // Says why the frame at the end is not whole.
@@ -195,6 +195,7 @@ void LammpsText::update() {
         moment.has_contacts = index_.pairs;
         moments_.push_back(moment);
     }
+    if (!moments_.empty()) moments_.back().open = index_.unended;
 }
 
 RawFrame LammpsText::read_frame(LineReader& lines, const DumpFrame& frame) const {
