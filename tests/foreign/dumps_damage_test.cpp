@@ -78,8 +78,8 @@ TEST(DamagedTextDump, Heads) {
 // A line that does not end within the largest buffer is refused and not kept.
 TEST(DamagedTextDump, EndlessLine) {
     const test::TemporaryFolder folder;
-    EXPECT_THAT(text_complaint(folder, frame_text("7", "1", names, std::string(40 << 20, '1'))),
-                tells({":10: ", "longer than 16 MB"}));
+    EXPECT_THAT(text_complaint(folder, frame_text("7", "1", names, std::string(66 << 20, '1'))),
+                tells({":10: ", "longer than 64 MB"}));
 }
 
 TEST(CutTextDump, WholeFramesAreReadAndTheLastIsLeftOut) {

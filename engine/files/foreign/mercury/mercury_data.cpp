@@ -12,7 +12,7 @@
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
-#include "engine/files/foreign/tables/text_lines.hpp"
+#include "engine/files/foreign/tables/text_frames.hpp"
 
 namespace grainreel {
 
@@ -32,20 +32,22 @@ WorldCell box_between(const Numbers& corners) {
     return box;
 }
 
-// The number in a word of a row. column: number of the column, from 1. Throws UserError where it is no
-// number.
-double number_in_row(const TextLines& lines, std::string_view word, std::size_t column, const char* name) {
-    const std::optional<double> number = number_in(word, Dialect::programs);
-    if (!number)
-        lines.fault(fmt::format("column {} ({}) has {}, which is no number", column, name, in_quotes(word)));
-    return *number;
-}
-
 class MercuryFile : public TextFrames {
   protected:
     MercuryFile(const std::filesystem::path& file, const char* format) : TextFrames(file) {
         facts_.format = format;
         facts_.program = "MercuryDPM";
+    }
+
+    // The number in a word of a row. column: number of the column, from 1. Throws UserError where it is no
+    // number.
+    double number_in_row(const TextLine& line, std::string_view word, std::size_t column,
+                         const char* name) const {
+        const std::optional<double> number = number_in(word, Dialect::programs);
+        if (!number)
+            fault(line,
+                  fmt::format("column {} ({}) has {}, which is no number", column, name, in_quotes(word)));
+        return *number;
     }
 };
 
@@ -88,67 +90,68 @@ class MercuryData : public MercuryFile {
     explicit MercuryData(const std::filesystem::path& file) : MercuryFile(file, "MercuryDPM data") {}
 
   protected:
-    Passed pass_over(TextLines& lines, RawMoment& moment) override;
-    RawFrame read_frame(TextLines& lines, const RawMoment& moment) const override;
+    Passed pass_over(LineReader& lines, TextLine& line, RawMoment& moment) override;
+    RawFrame read_frame(LineReader& lines, const RawMoment& moment) const override;
 
   private:
     std::size_t columns() const { return dimensions_ == 2 ? names_2d.size() : names_3d.size(); }
     const char* name(std::size_t i) const { return dimensions_ == 2 ? names_2d[i] : names_3d[i]; }
-    void add_row(const TextLines& lines, RawTable& grains) const;
+    void add_row(const TextLine& line, RawTable& grains) const;
 
     std::size_t dimensions_ = 0;  // 0 before the first frame
 };
 
-TextFrames::Passed MercuryData::pass_over(TextLines& lines, RawMoment& moment) {
-    if (!lines.next_filled()) return Passed::end;
-    const std::optional<DataHeader> header = data_header_of(lines.text());
-    if (!lines.ended()) return Passed::cut;
-    const std::uint64_t first = lines.number();
+TextFrames::Passed MercuryData::pass_over(LineReader& lines, TextLine& line, RawMoment& moment) {
+    if (!lines.next_with_words(line)) return Passed::end;
+    const std::optional<DataHeader> header = data_header_of(line.text);
+    if (!line.ended) return Passed::cut;
+    const std::int64_t first = line.number;
     if (!header)
-        lines.fault(
-            "the line of a frame must stand here: count, time and the box's corners; is the count of the "
-            "frame before right?");
+        fault(line,
+              "the line of a frame must stand here: count, time and the box's corners; is the count of the "
+              "frame before right?");
     if (dimensions_ == 0) dimensions_ = header->dimensions;
     if (dimensions_ != header->dimensions)
-        lines.fault(
-            fmt::format("this frame has {} dimensions, those before {}", header->dimensions, dimensions_));
+        fault(line,
+              fmt::format("this frame has {} dimensions, those before {}", header->dimensions, dimensions_));
     facts_.dimensions = static_cast<int>(dimensions_);
     for (std::int64_t i = 0; i < header->grains; ++i) {
-        if (!lines.next()) return Passed::cut;
-        const std::size_t words = count_words(lines.text(), columns() + 1);
-        if (words < columns() && !lines.ended()) return Passed::cut;
+        if (!lines.next(line)) return Passed::cut;
+        const std::size_t words = count_words(line.text, columns() + 1);
+        if (words < columns() && !line.ended) return Passed::cut;
         if (words != columns())
-            lines.fault(fmt::format(
-                "row {} of {} has {} in place of {}; line {} says {}: is that "
-                "right?",
-                i + 1, header->grains, words > columns() ? "more numbers" : counted(words, "number"),
-                columns(), first, counted(header->grains, "grain")));
+            fault(line, fmt::format("row {} of {} has {} in place of {}; line {} says {}: is that "
+                                    "right?",
+                                    i + 1, header->grains,
+                                    words > columns() ? "more numbers" : counted(words, "number"), columns(),
+                                    first, counted(header->grains, "grain")));
     }
     moment.grains = header->grains;
     moment.time = header->time;
     return Passed::frame;
 }
 
-void MercuryData::add_row(const TextLines& lines, RawTable& grains) const {
-    std::string_view rest = lines.text();
+void MercuryData::add_row(const TextLine& line, RawTable& grains) const {
+    std::string_view rest = line.text;
     for (std::size_t i = 0; i < columns(); ++i) {
         const std::string_view word = take_word(rest);
-        const double number = number_in_row(lines, word, i + 1, name(i));
+        const double number = number_in_row(line, word, i + 1, name(i));
         if (i < dimensions_ && !std::isfinite(number))
-            lines.fault(fmt::format("the grain has no place: its {} is {}", name(i), in_quotes(word)));
+            fault(line, fmt::format("the grain has no place: its {} is {}", name(i), in_quotes(word)));
         grains.columns[i].values.push_back(number);
     }
 }
 
-RawFrame MercuryData::read_frame(TextLines& lines, const RawMoment& moment) const {
+RawFrame MercuryData::read_frame(LineReader& lines, const RawMoment& moment) const {
     RawFrame frame;
     frame.time = moment.time;
-    lines.next_filled();
-    if (const std::optional<DataHeader> header = data_header_of(lines.text())) frame.box = box_of(*header);
+    TextLine line;
+    lines.next_with_words(line);
+    if (const std::optional<DataHeader> header = data_header_of(line.text)) frame.box = box_of(*header);
     for (std::size_t i = 0; i < columns(); ++i) frame.grains.columns.push_back({name(i), {}, {}});
     for (std::int64_t i = 0; i < moment.grains; ++i) {
-        if (!lines.next()) lines.fault("the file has become shorter while it was read");
-        add_row(lines, frame.grains);
+        if (!lines.next(line)) fault(line, "the file has become shorter while it was read");
+        add_row(line, frame.grains);
     }
     frame.grains.rows = static_cast<std::size_t>(moment.grains);
     return frame;
@@ -203,84 +206,88 @@ class MercuryContacts : public MercuryFile {
     explicit MercuryContacts(const std::filesystem::path& file) : MercuryFile(file, "MercuryDPM contacts") {}
 
   protected:
-    Passed pass_over(TextLines& lines, RawMoment& moment) override;
-    RawFrame read_frame(TextLines& lines, const RawMoment& moment) const override;
+    Passed pass_over(LineReader& lines, TextLine& line, RawMoment& moment) override;
+    RawFrame read_frame(LineReader& lines, const RawMoment& moment) const override;
 
   private:
     // row: a contact was read; last: the frame has no more; cut: the file ends within a row.
     enum class Row { row, last, cut };
-    Row next_row(TextLines& lines) const;
-    Numbers numbers(const TextLines& lines) const;
+    std::optional<ContactsHeader> read_header(LineReader& lines, TextLine& line) const;
+    Row next_row(LineReader& lines, TextLine& line) const;
+    Numbers numbers(const TextLine& line) const;
 };
 
 // Reads the header; none where the file ends within it.
-std::optional<ContactsHeader> read_header(TextLines& lines) {
+std::optional<ContactsHeader> MercuryContacts::read_header(LineReader& lines, TextLine& line) const {
     std::array<std::optional<Numbers>, 3> three;
     for (std::optional<Numbers>& one : three) {
-        if (!lines.next_filled() || !lines.ended()) return std::nullopt;
-        one = numbers_of_remark(lines.text());
+        if (!lines.next_with_words(line) || !line.ended) return std::nullopt;
+        one = numbers_of_remark(line.text);
     }
     std::optional<ContactsHeader> header = contacts_header_of(three);
-    if (!header) lines.fault("the three lines with # that begin a frame must end here: time, box, radii");
+    if (!header) fault(line, "the three lines with # that begin a frame must end here: time, box, radii");
     return header;
 }
 
-MercuryContacts::Row MercuryContacts::next_row(TextLines& lines) const {
-    if (!lines.next_filled()) return Row::last;
-    if (trimmed(lines.text()).starts_with('#')) {
-        lines.put_back();
+MercuryContacts::Row MercuryContacts::next_row(LineReader& lines, TextLine& line) const {
+    TextLine next;
+    if (!lines.next_with_words(next)) return Row::last;
+    if (trimmed(next.text).starts_with('#')) {
+        lines.back(next);
         return Row::last;
     }
-    const std::size_t words = count_words(lines.text(), columns_of_file + 1);
-    if (words < columns_of_file && !lines.ended()) return Row::cut;
+    line = next;
+    const std::size_t words = count_words(line.text, columns_of_file + 1);
+    if (words < columns_of_file && !line.ended) return Row::cut;
     if (words != columns_of_file)
-        lines.fault(fmt::format("a contact has {} numbers in place of {}",
+        fault(line, fmt::format("a contact has {} numbers in place of {}",
                                 words > columns_of_file ? "more" : std::to_string(words), columns_of_file));
     return Row::row;
 }
 
-TextFrames::Passed MercuryContacts::pass_over(TextLines& lines, RawMoment& moment) {
-    if (!lines.next_filled()) return Passed::end;
-    lines.put_back();
-    const std::optional<ContactsHeader> header = read_header(lines);
+TextFrames::Passed MercuryContacts::pass_over(LineReader& lines, TextLine& line, RawMoment& moment) {
+    if (!lines.next_with_words(line)) return Passed::end;
+    lines.back(line);
+    const std::optional<ContactsHeader> header = read_header(lines, line);
     if (!header) return Passed::cut;
     moment.time = header->time;
     moment.has_contacts = true;
     for (;;) {
-        const Row row = next_row(lines);
+        const Row row = next_row(lines, line);
         if (row == Row::cut) return Passed::cut;
         if (row == Row::last) return Passed::frame;
-        if (!lines.ended()) return Passed::frame;
+        if (!line.ended) return Passed::frame;
     }
 }
 
-Numbers MercuryContacts::numbers(const TextLines& lines) const {
+Numbers MercuryContacts::numbers(const TextLine& line) const {
     Numbers row;
-    std::string_view rest = lines.text();
+    std::string_view rest = line.text;
     take_word(rest);
     for (std::size_t i = 0; i < contact_names.size(); ++i) {
         const std::string_view word = take_word(rest);
-        const double number = number_in_row(lines, word, i + 2, contact_names[i]);
+        const double number = number_in_row(line, word, i + 2, contact_names[i]);
         const bool whole = std::isfinite(number) && std::floor(number) == number;
         if (i < first_place && !whole)
-            lines.fault(fmt::format("column {} ({}) has {}, which is no grain", i + 2, contact_names[i],
+            fault(line, fmt::format("column {} ({}) has {}, which is no grain", i + 2, contact_names[i],
                                     in_quotes(word)));
         if (i >= first_place && i < first_place + 3 && !std::isfinite(number))
-            lines.fault(
-                fmt::format("the contact has no place: its {} is {}", contact_names[i], in_quotes(word)));
+            fault(line,
+                  fmt::format("the contact has no place: its {} is {}", contact_names[i], in_quotes(word)));
         row.push_back(number);
     }
     return row;
 }
 
-RawFrame MercuryContacts::read_frame(TextLines& lines, const RawMoment& moment) const {
+RawFrame MercuryContacts::read_frame(LineReader& lines, const RawMoment& moment) const {
     RawFrame frame;
     frame.time = moment.time;
-    if (const std::optional<ContactsHeader> header = read_header(lines)) frame.box = header->box;
+    TextLine line;
+    if (const std::optional<ContactsHeader> header = read_header(lines, line)) frame.box = header->box;
     for (const char* name : contact_names) frame.contacts.columns.push_back({name, {}, {}});
     std::map<std::pair<double, double>, int> waiting;  // pairs that were seen only from one side so far
-    while (next_row(lines) == Row::row) {
-        const Numbers row = numbers(lines);
+    while (next_row(lines, line) == Row::row) {
+        const Numbers row = numbers(line);
         const auto other = waiting.find({row[1], row[0]});
         if (other != waiting.end() && other->second > 0 && row[0] != row[1]) {
             --other->second;

@@ -19,9 +19,10 @@
 #include "engine/base/text.hpp"
 #include "engine/base/triangle_mesh.hpp"
 #include "engine/base/vector.hpp"
+#include "engine/base/word_reader.hpp"
+#include "engine/files/foreign/line_reader.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
-#include "engine/files/foreign/tables/text_lines.hpp"
 #include "engine/files/frames/world.hpp"
 
 namespace grainreel {
@@ -173,6 +174,7 @@ class MercuryRestart : public RawFile {
   private:
     enum class Part { head, species, walls, boundaries, grains, rest };
 
+    [[noreturn]] void fault(const std::string& what) const { refuse_line(file_, line_.number, what); }
     // Whether the line begins a part of the file.
     bool begins_part(std::string_view line);
     void take_line(std::string_view line);
@@ -185,7 +187,9 @@ class MercuryRestart : public RawFile {
     void add(const char* column, double value);
     void finish();
 
-    TextLines lines_;
+    std::filesystem::path file_;
+    LineReader lines_;
+    TextLine line_;  // the present line
     Part part_ = Part::head;
     std::int64_t grains_left_ = 0;
     std::size_t next_column_ = 0;  // next column of the present grain
@@ -199,16 +203,15 @@ class MercuryRestart : public RawFile {
     std::vector<std::string> news_;
 };
 
-MercuryRestart::MercuryRestart(const std::filesystem::path& file) : lines_(file) {
+MercuryRestart::MercuryRestart(const std::filesystem::path& file) : file_(file), lines_(file) {
     facts_.format = "MercuryDPM restart";
     facts_.program = "MercuryDPM";
-    while (lines_.next_filled())
-        if (!begins_part(lines_.text())) take_line(lines_.text());
-    if (!grains_seen_)
-        lines_.fault("the file ends before its Particles; was it copied or written to the end?");
+    while (lines_.next_with_words(line_))
+        if (!begins_part(line_.text)) take_line(line_.text);
+    if (!grains_seen_) fault("the file ends before its Particles; was it copied or written to the end?");
     if (grains_left_ > 0)
-        lines_.fault(fmt::format("the file ends {} grains too early; was it copied or written to the end?",
-                                 grains_left_));
+        fault(fmt::format("the file ends {} grains too early; was it copied or written to the end?",
+                          grains_left_));
     finish();
 }
 
@@ -229,7 +232,7 @@ bool MercuryRestart::begins_part(std::string_view line) {
     else
         return false;
     if (part_ != Part::grains) return true;
-    if (*count < 0) lines_.fault("the count of grains is negative");
+    if (*count < 0) fault("the count of grains is negative");
     grains_left_ = *count;
     grains_seen_ = true;
     return true;
@@ -237,8 +240,8 @@ bool MercuryRestart::begins_part(std::string_view line) {
 
 void MercuryRestart::take_line(std::string_view text) {
     if (part_ == Part::rest || (part_ == Part::grains && grains_left_ == 0)) return;
-    if (part_ == Part::grains && !lines_.ended())
-        lines_.fault("the file ends within a grain; was it copied or written to the end?");
+    if (part_ == Part::grains && !line_.ended)
+        fault("the file ends within a grain; was it copied or written to the end?");
     const RestartLine line(text);
     switch (part_) {
         case Part::head:
@@ -326,20 +329,18 @@ void MercuryRestart::take_boundary(const RestartLine& line) {
 void MercuryRestart::add(const char* name, double value) {
     RawTable& grains = frame_.grains;
     if (next_column_ == grains.columns.size()) {
-        if (grains.rows > 0)
-            lines_.fault(fmt::format("this grain has a value more than those before: {}", name));
+        if (grains.rows > 0) fault(fmt::format("this grain has a value more than those before: {}", name));
         grains.columns.push_back({name, {}, {}});
     }
     const bool place = std::string_view(name).size() == 1;
-    if (place && !std::isfinite(value))
-        lines_.fault(fmt::format("the grain has no place: its {} is none", name));
+    if (place && !std::isfinite(value)) fault(fmt::format("the grain has no place: its {} is none", name));
     grains.columns[next_column_++].values.push_back(value);
 }
 
 void MercuryRestart::take_plain_grain(const std::vector<double>& numbers) {
     if (numbers.size() < plain_columns.size())
-        lines_.fault(fmt::format("this grain has {} numbers; of restart_version 3 they are {} at least",
-                                 numbers.size(), plain_columns.size()));
+        fault(fmt::format("this grain has {} numbers; of restart_version 3 they are {} at least",
+                          numbers.size(), plain_columns.size()));
     for (std::size_t i = 0; i < plain_columns.size(); ++i)
         if (*plain_columns[i] != '\0') add(plain_columns[i], numbers[i]);
 }
@@ -372,7 +373,7 @@ void MercuryRestart::finish() {
     frame_.box = box_;
     for (const auto& [kind, count] : left_out_)
         news_.push_back(fmt::format("{}: {} wall{} of the kind {} cannot be drawn and {} left out",
-                                    lines_.file().string(), count, count == 1 ? "" : "s", kind,
+                                    file_.string(), count, count == 1 ? "" : "s", kind,
                                     count == 1 ? "is" : "are"));
     RawMoment moment;
     moment.time = frame_.time;

@@ -13,11 +13,12 @@
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
+#include "engine/files/foreign/line_reader.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/table_layout.hpp"
-#include "engine/files/foreign/tables/text_lines.hpp"
 #include "engine/scene/text/units.hpp"
 
 namespace grainreel {
@@ -28,8 +29,8 @@ using Cells = std::vector<CsvCell>;
 
 // A group of rows that follow each other in the file.
 struct RowGroup {
-    std::uint64_t byte = 0, lines = 0;  // where they begin; number of lines before them
-    std::uint64_t rows = 0, last_line = 0;
+    std::uint64_t byte = 0;  // where they begin
+    std::int64_t line = 1, rows = 0, last_line = 0;
 };
 
 struct FrameRows {
@@ -71,6 +72,7 @@ class NumberTable : public RawFile {
     RawFrame read(std::size_t index) const override;
 
   private:
+    [[noreturn]] void fault(const std::string& what) const { refuse_line(file_, line_.number, what); }
     void refuse_measures() const;
     void find_clocks();
     void find_frames();
@@ -90,11 +92,13 @@ class NumberTable : public RawFile {
     double last_ = 0;                         // time or step of the last row
     Ranges ranges_;
     mutable std::mutex reading_;
-    mutable TextLines lines_;
-    mutable Cells cells_;  // cells of the present row
+    std::filesystem::path file_;
+    mutable LineReader lines_;
+    mutable TextLine line_;  // the present line
+    mutable Cells cells_;    // cells of the present row
 };
 
-NumberTable::NumberTable(const std::filesystem::path& file) : lines_(file) {
+NumberTable::NumberTable(const std::filesystem::path& file) : file_(file), lines_(file) {
     const std::optional<TableLayout> layout = layout_at(unpacked_head(file));
     if (!layout) throw UserError(fmt::format("{}:1: is no table of numbers", file.string()));
     layout_ = *layout;
@@ -115,7 +119,7 @@ void NumberTable::refuse_measures() const {
         throw UserError(fmt::format(
             "{}: is the table of measures of a run of ours, a row a moment, and holds no grains; name "
             "the run's folder, or make its charts by: {} report DIR --charts charts",
-            lines_.file().string(), program_call()));
+            file_.string(), program_call()));
 }
 
 // Finds the columns of time and step. If two columns fit, the first is taken.
@@ -139,22 +143,22 @@ void NumberTable::find_clocks() {
 double NumberTable::clock_of(std::size_t column) const {
     const std::optional<double> value = cell_number(cells_[column].text, layout_.decimal_comma);
     if (!value || !std::isfinite(*value))
-        lines_.fault(fmt::format("column {} ({}) has {}, which is no time", column + 1, layout_.names[column],
-                                 in_quotes(cells_[column].text)));
+        fault(fmt::format("column {} ({}) has {}, which is no time", column + 1, layout_.names[column],
+                          in_quotes(cells_[column].text)));
     return *value;
 }
 
 // Adds the present row to the frame of its time. Returns false where the file ends within the row.
 bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
-    split_cells(lines_.text(), layout_.form, cells_);
+    split_cells(line_.text, layout_.form, cells_);
     const std::optional<std::size_t> clock = time_ ? time_ : step_;
-    if (cells_.size() < layout_.names.size() && !lines_.ended()) {
+    if (cells_.size() < layout_.names.size() && !line_.ended) {
         if (clock && *clock + 1 < cells_.size()) last_ = clock_of(*clock);
         return false;
     }
     if (cells_.size() != layout_.names.size())
-        lines_.fault(fmt::format("this row has {} in place of {}", counted(cells_.size(), "column"),
-                                 layout_.names.size()));
+        fault(fmt::format("this row has {} in place of {}", counted(cells_.size(), "column"),
+                          layout_.names.size()));
     last_ = clock ? clock_of(*clock) : 0.0;
     FrameRows& frame = frames[last_];
     RawMoment& moment = frame.moment;
@@ -166,32 +170,31 @@ bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
         }
     }
     ++moment.grains;
-    if (frame.runs.empty() || frame.runs.back().last_line + 1 != lines_.number())
-        frame.runs.push_back({lines_.begin(), lines_.number() - 1, 0, 0});
+    if (frame.runs.empty() || frame.runs.back().last_line + 1 != line_.number)
+        frame.runs.push_back({line_.place, line_.number, 0, 0});
     ++frame.runs.back().rows;
-    frame.runs.back().last_line = lines_.number();
+    frame.runs.back().last_line = line_.number;
     if (!layout_.named && cells_.size() == 4) ranges_.add(cells_, layout_.decimal_comma);
     return true;
 }
 
 void NumberTable::find_frames() {
     std::map<double, FrameRows> frames;
-    while (lines_.number() < layout_.head_lines && lines_.next()) continue;
-    bool whole = true;
-    while (whole && lines_.next_filled()) {
-        if (is_remark(lines_.text())) continue;
+    while (line_.number < layout_.head_lines && lines_.next(line_)) continue;
+    bool whole = true, shut = line_.ended;
+    while (whole && lines_.next_with_words(line_)) {
+        shut = line_.ended || (layout_.form.closed && trimmed(line_.text).ends_with(layout_.form.separator));
+        if (is_remark(line_.text)) continue;
         whole = take_row(frames);
     }
-    const std::string name = lines_.file().string();
-    const bool shut =
-        lines_.ended() || (layout_.form.closed && trimmed(lines_.text()).ends_with(layout_.form.separator));
+    const std::string name = file_.string();
     const bool many = frames.size() > 1;
     if (!whole && !many)
         throw UserError(fmt::format("{}:{}: the file ends within a row; was it copied or written to the end?",
-                                    name, lines_.number()));
+                                    name, line_.number));
     if (many && (!whole || !shut)) {
         news_.push_back(
-            fmt::format("{}: its last frame is cut off in line {} and is left out", name, lines_.number()));
+            fmt::format("{}: its last frame is cut off in line {} and is left out", name, line_.number));
         frames.erase(last_);
     } else if (!shut) {
         news_.push_back(fmt::format("{}: its last line has no end; its last number may be cut", name));
@@ -206,7 +209,7 @@ void NumberTable::find_frames() {
 
 void NumberTable::name_nameless() {
     if (layout_.named) return;
-    const std::string name = lines_.file().string();
+    const std::string name = file_.string();
     if (layout_.names.size() == 4 && ranges_.are_spheres()) {
         layout_.names = {"x", "y", "z", "radius"};
         facts_.format = "table of numbers without names";
@@ -225,8 +228,8 @@ bool is_place(const std::string& name) {
 }
 
 void NumberTable::add_row(std::vector<ColumnFiller>& columns) const {
-    split_cells(lines_.text(), layout_.form, cells_);
-    if (cells_.size() != columns.size()) lines_.fault("the file has changed while it was read");
+    split_cells(line_.text, layout_.form, cells_);
+    if (cells_.size() != columns.size()) fault("the file has changed while it was read");
     for (std::size_t i = 0; i < columns.size(); ++i) {
         if (columns[i].kind() == CellKind::word) {
             columns[i].add(cells_[i].text);
@@ -234,19 +237,19 @@ void NumberTable::add_row(std::vector<ColumnFiller>& columns) const {
         }
         const std::optional<double> value = cell_number(cells_[i].text, layout_.decimal_comma);
         if (!value)
-            lines_.fault(fmt::format("column {} ({}) has {}, which is no number", i + 1, columns[i].name(),
-                                     in_quotes(cells_[i].text)));
+            fault(fmt::format("column {} ({}) has {}, which is no number", i + 1, columns[i].name(),
+                              in_quotes(cells_[i].text)));
         if (!std::isfinite(*value) && is_place(columns[i].name()))
-            lines_.fault(fmt::format("the grain has no place: its {} is {}", columns[i].name(),
-                                     in_quotes(cells_[i].text)));
+            fault(fmt::format("the grain has no place: its {} is {}", columns[i].name(),
+                              in_quotes(cells_[i].text)));
         columns[i].add_number(*value);
     }
 }
 
 void NumberTable::add_rows(std::vector<ColumnFiller>& columns, const RowGroup& run) const {
-    lines_.go_to(run.byte, run.lines);
-    for (std::uint64_t row = 0; row < run.rows; ++row) {
-        if (!lines_.next()) lines_.fault("the file has become shorter while it was read");
+    lines_.seek(run.byte, run.line);
+    for (std::int64_t row = 0; row < run.rows; ++row) {
+        if (!lines_.next(line_)) fault("the file has become shorter while it was read");
         add_row(columns);
     }
 }

@@ -29,7 +29,7 @@ struct Notation {
 // The first lines of a file.
 struct Sample {
     std::vector<std::string_view> remarks, filled;
-    std::vector<std::uint64_t> numbers;  // numbers of the lines that are not blank, from 1
+    std::vector<std::int64_t> numbers;  // numbers of the lines that are not blank, from 1
 };
 
 // The text without blanks at both ends. Tabs stay, because they may separate cells.
@@ -48,7 +48,7 @@ std::optional<Sample> sample_of(std::string_view text, bool whole) {
     constexpr std::string_view mark = "\xef\xbb\xbf";
     if (text.starts_with(mark)) text.remove_prefix(mark.size());
     Sample sample;
-    for (std::uint64_t number = 1; !text.empty() && sample.filled.size() < most_rows; ++number) {
+    for (std::int64_t number = 1; !text.empty() && sample.filled.size() < most_rows; ++number) {
         const std::size_t length = text.find('\n');
         if (length == std::string_view::npos && !whole) break;
         const std::string_view line = without_return(text.substr(0, length));

@@ -18,9 +18,9 @@ struct TableLayout {
     bool decimal_comma = false;  // "1,5"
     bool named = false;          // the file names its columns; otherwise they are "c1", "c2", ...
     std::vector<std::string> names;
-    std::vector<bool> is_word;     // for each column: whether it holds words
-    std::uint64_t head_lines = 0;  // number of lines before the first row
-    std::string program;           // the program that writes such tables, if the names tell
+    std::vector<bool> is_word;    // for each column: whether it holds words
+    std::int64_t head_lines = 0;  // number of lines before the first row
+    std::string program;          // the program that writes such tables, if the names tell
 };
 
 // The layout of a text; none where it is no table. whole: the text is the whole file.

@@ -17,7 +17,7 @@
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
-#include "engine/files/foreign/tables/text_lines.hpp"
+#include "engine/files/foreign/tables/text_frames.hpp"
 #include "engine/files/frames/world.hpp"
 
 namespace grainreel {
@@ -280,75 +280,74 @@ class XyzFile : public TextFrames {
     explicit XyzFile(const std::filesystem::path& file) : TextFrames(file) { facts_.format = "XYZ"; }
 
   protected:
-    Passed pass_over(TextLines& lines, RawMoment& moment) override;
-    RawFrame read_frame(TextLines& lines, const RawMoment& moment) const override;
+    Passed pass_over(LineReader& lines, TextLine& line, RawMoment& moment) override;
+    RawFrame read_frame(LineReader& lines, const RawMoment& moment) const override;
 
   private:
-    XyzHeader header_of(const TextLines& lines) const;
-    std::vector<ColumnFiller> columns_of(const TextLines& lines, const XyzHeader& header,
+    XyzHeader header_of(const TextLine& line) const;
+    std::vector<ColumnFiller> columns_of(const TextLine& line, const XyzHeader& header,
                                          const Words& row) const;
-    void add_row(const TextLines& lines, std::vector<ColumnFiller>& columns, const Words& row) const;
+    void add_row(const TextLine& line, std::vector<ColumnFiller>& columns, const Words& row) const;
 };
 
-XyzHeader XyzFile::header_of(const TextLines& lines) const {
+XyzHeader XyzFile::header_of(const TextLine& line) const {
     try {
-        return xyz_header_of(lines.text());
+        return xyz_header_of(line.text);
     } catch (const UserError& error) {
-        lines.fault(error.what());
+        fault(line, error.what());
     }
 }
 
-std::vector<ColumnFiller> XyzFile::columns_of(const TextLines& lines, const XyzHeader& header,
+std::vector<ColumnFiller> XyzFile::columns_of(const TextLine& line, const XyzHeader& header,
                                               const Words& row) const {
     if (!header.fields.empty()) return named_columns(header.fields);
     if (row.size() < 4)
-        lines.fault(
-            "a row of XYZ has an element and x, y, z; this one has fewer words; is the count above right?");
+        fault(line,
+              "a row of XYZ has an element and x, y, z; this one has fewer words; is the count above right?");
     return plain_columns(row);
 }
 
-void XyzFile::add_row(const TextLines& lines, std::vector<ColumnFiller>& columns, const Words& row) const {
+void XyzFile::add_row(const TextLine& line, std::vector<ColumnFiller>& columns, const Words& row) const {
     if (row.size() != columns.size())
-        lines.fault(fmt::format("this row has {} in place of {}; is the count of grains right?",
+        fault(line, fmt::format("this row has {} in place of {}; is the count of grains right?",
                                 counted(row.size(), "column"), columns.size()));
     for (std::size_t i = 0; i < row.size(); ++i) {
         if (!columns[i].add(row[i]))
-            lines.fault(fmt::format("column {} ({}) has {}, which is {}", i + 1, columns[i].name(),
+            fault(line, fmt::format("column {} ({}) has {}, which is {}", i + 1, columns[i].name(),
                                     in_quotes(row[i]), name_of_wrong(columns[i].kind())));
         if (is_place(columns[i].name()) && !std::isfinite(columns[i].last()))
-            lines.fault(
-                fmt::format("the grain has no place: its {} is {}", columns[i].name(), in_quotes(row[i])));
+            fault(line,
+                  fmt::format("the grain has no place: its {} is {}", columns[i].name(), in_quotes(row[i])));
     }
 }
 
-TextFrames::Passed XyzFile::pass_over(TextLines& lines, RawMoment& moment) {
-    if (!lines.next_filled()) return Passed::end;
-    const std::optional<std::int64_t> count = count_of(lines.text());
+TextFrames::Passed XyzFile::pass_over(LineReader& lines, TextLine& line, RawMoment& moment) {
+    if (!lines.next_with_words(line)) return Passed::end;
+    const std::optional<std::int64_t> count = count_of(line.text);
     if (!count) {
-        if (!lines.ended()) return Passed::cut;
-        lines.fault(
-            fmt::format("the count of grains of a frame must stand here, not {}; is the count of the "
-                        "frame before right?",
-                        in_quotes(trimmed(lines.text()))));
+        if (!line.ended) return Passed::cut;
+        fault(line, fmt::format("the count of grains of a frame must stand here, not {}; is the count of the "
+                                "frame before right?",
+                                in_quotes(trimmed(line.text))));
     }
-    const std::uint64_t first = lines.number();
-    if (!lines.ended() || !lines.next()) return *count == 0 && lines.ended() ? Passed::frame : Passed::cut;
-    if (!lines.ended() && *count > 0) return Passed::cut;
-    const XyzHeader header = header_of(lines);
+    const std::int64_t first = line.number;
+    if (!line.ended || !lines.next(line)) return *count == 0 && line.ended ? Passed::frame : Passed::cut;
+    if (!line.ended && *count > 0) return Passed::cut;
+    const XyzHeader header = header_of(line);
     if (!header.fields.empty()) facts_.format = "extended XYZ";
     std::size_t columns = 0;
     for (const XyzField& field : header.fields) columns += field.count;
     for (std::int64_t i = 0; i < *count; ++i) {
-        if (!lines.next()) return Passed::cut;
-        const std::size_t words = count_words(lines.text(), columns == 0 ? most_words : columns + 1);
+        if (!lines.next(line)) return Passed::cut;
+        const std::size_t words = count_words(line.text, columns == 0 ? most_words : columns + 1);
         if (columns == 0) columns = words;
-        if (words < columns && !lines.ended()) return Passed::cut;
+        if (words < columns && !line.ended) return Passed::cut;
         if (words != columns || words < 2)
-            lines.fault(
-                fmt::format("row {} of {} has {} in place of {}; line {} says {}: is that "
-                            "right?",
-                            i + 1, *count, words > columns ? "more columns" : counted(words, "column"),
-                            columns, first, counted(*count, "grain")));
+            fault(line,
+                  fmt::format("row {} of {} has {} in place of {}; line {} says {}: is that "
+                              "right?",
+                              i + 1, *count, words > columns ? "more columns" : counted(words, "column"),
+                              columns, first, counted(*count, "grain")));
     }
     moment.grains = *count;
     moment.time = header.time;
@@ -356,22 +355,23 @@ TextFrames::Passed XyzFile::pass_over(TextLines& lines, RawMoment& moment) {
     return Passed::frame;
 }
 
-RawFrame XyzFile::read_frame(TextLines& lines, const RawMoment& moment) const {
+RawFrame XyzFile::read_frame(LineReader& lines, const RawMoment& moment) const {
     RawFrame frame;
     frame.time = moment.time;
     frame.step = moment.step;
-    lines.next_filled();
+    TextLine line;
+    lines.next_with_words(line);
     XyzHeader header;
-    if (lines.next()) header = header_of(lines);
+    if (lines.next(line)) header = header_of(line);
     frame.box = header.box;
     std::vector<ColumnFiller> columns = named_columns(header.fields);
     if (columns.empty()) columns = plain_columns({});
     Words row;
     for (std::int64_t i = 0; i < moment.grains; ++i) {
-        if (!lines.next()) lines.fault("the file has become shorter while it was read");
-        split_words(lines.text(), row);
-        if (i == 0) columns = columns_of(lines, header, row);
-        add_row(lines, columns, row);
+        if (!lines.next(line)) fault(line, "the file has become shorter while it was read");
+        split_words(line.text, row);
+        if (i == 0) columns = columns_of(line, header, row);
+        add_row(line, columns, row);
     }
     frame.grains.rows = static_cast<std::size_t>(moment.grains);
     for (ColumnFiller& column : columns) frame.grains.columns.push_back(column.finish());
