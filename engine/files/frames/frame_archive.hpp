@@ -1,8 +1,9 @@
 // A FrameArchive holds the frames of a run on disk, whatever their format. They can be read in any order.
 // Code that draws frames or answers questions takes them from here and need not know their format.
 //
-// A new format of frames as we keep them is a FrameReader: a file in engine/files/frames/readers and a line in
-// the list of open_frames.cpp. A format of another program is a RawFile (engine/files/foreign/raw_file.hpp).
+// A new format of frames as we keep them is a FrameReader: a file in engine/files/frames/readers and a line
+// in the list of open_frames.cpp. A format of another program is a RawFile
+// (engine/files/foreign/raw_file.hpp).
 #pragma once
 
 #include <cmath>
