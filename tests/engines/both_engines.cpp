@@ -22,7 +22,7 @@ Course read_theirs(const std::filesystem::path& folder, PeerEngine engine, const
         now.time = carried.plan.clock.time(step);
         now.radius = rows.radius;
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            now.species.push_back(rows.type[i] - 1);
+            now.species.push_back(rows.species[i]);
             now.position.push_back(rows.position[i]);
             if (carried.rides()) now.position.back() += motion.at(step).offset;
         }
