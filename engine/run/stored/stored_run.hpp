@@ -81,7 +81,8 @@ class StoredRun final : public FrameArchive {
     void set_periods(int periods) { periods_ = periods; }
     double from() const { return moments().front().time; }  // s
     double to() const { return moments().back().time; }
-    // Of the last moment or checkpoint. A run that was broken off has checkpoints after its last kept moment.
+    // The step of the last moment, or of the last checkpoint if that is later. A run that was broken off has
+    // checkpoints after its last kept moment.
     std::int64_t last_step() const;
     std::string name_of(const char* file) const { return (path() / file).string(); }
 
