@@ -98,7 +98,7 @@ class GrainRow {
     std::size_t taken_ = 0;  // number of cells that were taken
 };
 
-void read_grain(GrainRow& row, const TableForm& form, std::unordered_set<std::int32_t>& ids, Frame& frame) {
+void read_grain(GrainRow& row, const TableForm& form, std::unordered_set<std::int32_t>& ids, State& frame) {
     frame.id.push_back(row.whole("id"));
     if (frame.id.back() < 0) row.reject("`id` is negative");
     if (!ids.insert(frame.id.back()).second)
@@ -129,7 +129,7 @@ bool begins_grain_table(std::string_view bytes) {
     return form_of(line).has_value();
 }
 
-TableMark write_grain_table(const std::filesystem::path& path, const Frame& frame) {
+TableMark write_grain_table(const std::filesystem::path& path, const State& frame) {
     const bool with_orientation = !frame.orientation.empty();
     fmt::memory_buffer text;
     fmt::format_to(std::back_inserter(text), "{}{}\n", plain_header,
@@ -147,7 +147,7 @@ TableMark write_grain_table(const std::filesystem::path& path, const Frame& fram
     return mark_of_table(static_cast<std::int64_t>(frame.size()), {text.data(), text.size()});
 }
 
-Frame read_grain_table(const std::filesystem::path& path) {
+State read_grain_table(const std::filesystem::path& path) {
     std::ifstream file = read_plain(path);
     if (!file)
         throw UserError(fmt::format("{}: cannot be opened; give the final.csv of a run", path.string()));
@@ -157,7 +157,7 @@ Frame read_grain_table(const std::filesystem::path& path) {
         throw UserError(fmt::format("{}:1:1: not a table of grains; the first line must be `{}`",
                                     path.string(), plain_header));
     }
-    Frame frame;
+    State frame;
     std::unordered_set<std::int32_t> ids;
     while (rows.next()) {
         GrainRow row(rows);

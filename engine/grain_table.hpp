@@ -14,7 +14,7 @@
 #include <optional>
 #include <string_view>
 
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -42,13 +42,13 @@ bool begins_grain_table(std::string_view bytes);
 
 // Writes a table and returns its mark for run.json. Throws RunError if the file cannot be written; its former
 // content then stays.
-TableMark write_grain_table(const std::filesystem::path& path, const Frame& frame);
+TableMark write_grain_table(const std::filesystem::path& path, const State& frame);
 
 // Reads a table. The frame's step, time and wall poses stay at their defaults, because the table does not
 // hold them.
 // Throws UserError with line and column when the file is missing, is not such a table, or holds a value that
 // no grain can have (a radius of 0, an infinite speed, an id twice). Also throws UserError when it is a
 // final.csv that does not match the mark in the run.json beside it.
-Frame read_grain_table(const std::filesystem::path& path);
+State read_grain_table(const std::filesystem::path& path);
 
 }  // namespace grainreel

@@ -254,8 +254,8 @@ std::vector<Row> ContactsReader::Impl::rows_of(std::size_t frame) const {
     return rows;
 }
 
-std::vector<Touch> ContactsReader::touches(std::size_t frame) const {
-    std::vector<Touch> touches;
+std::vector<Link> ContactsReader::touches(std::size_t frame) const {
+    std::vector<Link> touches;
     if (!has_all(frame)) return touches;
     for (const Row& row : impl_->rows_of(frame)) touches.push_back({row.first, row.second, row.normal});
     return touches;

@@ -53,7 +53,7 @@ class ContactsReader {
 
     // The contacts of a frame of the trajectory, as they were written; none where has_all() is false. Throws
     // UserError that names the row when one is damaged.
-    std::vector<Touch> touches(std::size_t frame) const;
+    std::vector<Link> touches(std::size_t frame) const;
     // The same with points and tangential forces.
     std::vector<SavedContact> contacts(std::size_t frame) const;
     // Whether all contacts of the frame are in the file. In a file that was cut off, contacts may be missing

@@ -34,7 +34,7 @@ std::string vector_text(const Vec3& v) {
     return fmt::format("({:.3g}, {:.3g}, {:.3g})", v.x(), v.y(), v.z());
 }
 
-std::optional<std::string> grain_fault(const Frame& f, std::size_t i, std::size_t species) {
+std::optional<std::string> grain_fault(const State& f, std::size_t i, std::size_t species) {
     if (f.id[i] < 0 || (i > 0 && f.id[i] <= f.id[i - 1]))
         return fmt::format("the id {} stands where ids should rise", f.id[i]);
     const auto says = [&](const std::string& what) { return fmt::format("grain {} has {}", f.id[i], what); };
@@ -57,7 +57,7 @@ std::optional<std::string> grain_fault(const Frame& f, std::size_t i, std::size_
 
 }  // namespace
 
-std::optional<std::string> moment_fault(const Frame& f) {
+std::optional<std::string> moment_fault(const State& f) {
     if (!within(f.time, longest_time)) return fmt::format("its time is {:.3g} s", f.time);
     if (!within(f.cycles, most_cycles)) return fmt::format("it is {} periods after the start", f.cycles);
     if (!(f.phase >= 0 && f.phase <= 1)) return fmt::format("its phase is {:.3g} turns", f.phase);
@@ -74,7 +74,7 @@ std::optional<std::string> moment_fault(const Frame& f) {
     return std::nullopt;
 }
 
-std::optional<std::string> grains_fault(const Frame& frame, std::size_t species) {
+std::optional<std::string> grains_fault(const State& frame, std::size_t species) {
     for (std::size_t i = 0; i < frame.size(); ++i)
         if (auto fault = grain_fault(frame, i, species)) return fault;
     return std::nullopt;

@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "engine/base/error.hpp"
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -45,8 +45,8 @@ constexpr double kFarthestPlace = 1e6;
 // The first fault of a frame as text: "its time is nan s", "grain 12 has a radius of -1 m"; none when all
 // numbers are possible. moment_fault() looks at time, phase and poses, grains_fault() at the grains.
 // `species` is the number of species that there are.
-std::optional<std::string> moment_fault(const Frame& frame);
-std::optional<std::string> grains_fault(const Frame& frame, std::size_t species);
+std::optional<std::string> moment_fault(const State& frame);
+std::optional<std::string> grains_fault(const State& frame, std::size_t species);
 
 // One frame of a file is damaged: its checksum does not fit its numbers, or it has numbers that no run can
 // have (NaN, a radius of 0, an unknown species). The other frames may be whole.

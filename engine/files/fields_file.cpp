@@ -22,7 +22,7 @@ constexpr std::size_t most_cells_of_cdf2 = ((std::size_t{1} << 32) - 4) / sizeof
 std::size_t cells_of(const FieldSet& set, const FieldInfo& field) {
     std::size_t cells = 1;
     for (const std::string& name : field.axes)
-        for (const FieldAxis& axis : set.axes)
+        for (const MeasuredAxis& axis : set.axes)
             if (axis.name == name) cells *= axis.at.size();
     return cells;
 }
@@ -52,7 +52,7 @@ struct FieldsWriter::Impl {
 
     struct Axis {
         int dimension, variable;
-        FieldAxis axis;
+        MeasuredAxis axis;
     };
     NetcdfFile file;
     std::map<std::string, Axis> axes;          // by their names in the file
@@ -88,7 +88,7 @@ void FieldsWriter::Impl::define_checksum() {
 
 void FieldsWriter::Impl::define_axes(const FieldSet& set) {
     named.clear();
-    for (const FieldAxis& axis : set.axes) {
+    for (const MeasuredAxis& axis : set.axes) {
         std::string name = axis.name;
         const auto differs = [&](const Axis& other) {
             return other.axis.at != axis.at || other.axis.unit != axis.unit;
@@ -133,7 +133,7 @@ void FieldsWriter::Impl::find_fields(const FieldSet& set) {
     for (const FieldInfo& field : set.fields) {
         Variable variable{file.find_variable(field.name), {}};
         for (const std::string& name : field.axes)
-            for (const FieldAxis& axis : set.axes)
+            for (const MeasuredAxis& axis : set.axes)
                 if (axis.name == name) variable.shape.push_back(axis.at.size());
         fields.back().push_back(variable);
     }

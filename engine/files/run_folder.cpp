@@ -154,7 +154,7 @@ fs::path without_trailing_slash(const fs::path& path) {
 
 }  // namespace
 
-RunFolder::RunFolder(const RunFolderRequest& request) : command_(request.command) {
+RunFolder::RunFolder(const FolderRequest& request) : command_(request.command) {
     if (request.goes_on) {
         lock_ = request.goes_on;
         goes_on_ = true;

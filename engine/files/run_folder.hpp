@@ -12,7 +12,7 @@
 
 namespace grainreel {
 
-struct RunFolderRequest {
+struct FolderRequest {
     std::string name;                       // the scene's name
     std::filesystem::path base = "output";  // where folders without an explicit name go
     std::optional<std::filesystem::path>
@@ -33,7 +33,7 @@ class RunFolder {
     //  - `force` is set and it holds something other than a run of ours,
     //  - another process fills it or the folder of a panel in it (a panel is one of several runs in a film),
     //  - the folder cannot be made or written.
-    explicit RunFolder(const RunFolderRequest& request);
+    explicit RunFolder(const FolderRequest& request);
     // Throws the same errors for `out` and makes nothing: for a command that works for long before it needs
     // the folder.
     static void check(const std::filesystem::path& out, bool force);

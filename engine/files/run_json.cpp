@@ -56,7 +56,7 @@ Json engine(const RunJson& r) {
 
 Json drawn(const RunJson& r) {
     Json runs = Json::array();
-    for (const DrawnRun& run : r.drawn)
+    for (const DrawnFrom& run : r.drawn)
         runs.push_back(
             {{"run", run.folder}, {"frames", run.frames}, {"first_s", run.first}, {"last_s", run.last}});
     return runs;
@@ -224,7 +224,7 @@ bool take(const Json& from, AcceptedKey& to) {
     return take(from, "step", to.step);
 }
 
-bool take(const Json& from, DrawnRun& to) {
+bool take(const Json& from, DrawnFrom& to) {
     take(from, "frames", to.frames);
     take(from, "first_s", to.first);
     take(from, "last_s", to.last);

@@ -34,7 +34,7 @@ std::string checksum_of_file(const std::filesystem::path& path);
 enum class RunStatus { running, complete, interrupted, failed };
 
 // A finished run whose frames were drawn.
-struct DrawnRun {
+struct DrawnFrom {
     std::string folder;
     std::int64_t frames = 0;     // number of frames drawn
     double first = 0, last = 0;  // s, time of the first and the last of them
@@ -54,7 +54,7 @@ struct RunJson : ProgramInfo {
 
     // Earlier runs whose frames were drawn. If there are any, nothing was computed now, and the file says
     // nothing about the engine.
-    std::vector<DrawnRun> drawn;
+    std::vector<DrawnFrom> drawn;
     // The part, if the film is one of several parts.
     std::optional<DrawnPart> part;
     // For a film that shows several runs side by side (in panels): the folders with the files of each, in

@@ -19,7 +19,7 @@ inline constexpr const char* kImportNews = "import_news.txt";
 // The page of a run.
 inline constexpr const char* kPageName = "report.html";
 
-// FormerRun keeps a run as it was in .before. While it prepares or removes that folder, it is called
+// FormerFiles keeps a run as it was in .before. While it prepares or removes that folder, it is called
 // .before.part.
 inline constexpr const char *kFormerRun = ".before", *kFormerRunPart = ".before.part";
 

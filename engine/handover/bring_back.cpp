@@ -11,9 +11,9 @@
 #include "engine/files/run_names.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/handover/deck_dump.hpp"
-#include "engine/handover/engine_job.hpp"
 #include "engine/handover/grain_count.hpp"
 #include "engine/handover/handover_folder.hpp"
+#include "engine/handover/peer_process.hpp"
 #include "engine/handover/returned_health.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
@@ -88,7 +88,7 @@ std::unique_ptr<ReturningFolder> returning(const fs::path& folder,
 std::vector<std::string> news_of_former(const fs::path& folder, const HandoverFacts& facts) {
     const TrajectoryReader former(folder / "trajectory.nc");
     if (former.frames() == 0) return {};
-    const Frame last = former.read_moment(former.frames() - 1);
+    const State last = former.read_moment(former.frames() - 1);
     if (last.step >= facts.last) return {};
     return {came_so_far(folder, facts, last.time, static_cast<double>(facts.last) * facts.step)};
 }
@@ -156,7 +156,7 @@ ArrivalFacts arrival_facts(const Scene& scene, const Plan& plan, const HandoverF
     ArrivalFacts all;
     all.header = info_of(scene, plan, version);
     all.clock = plan.clock;
-    all.in_container = facts.frame == RunFrame::container;
+    all.in_container = facts.frame == ReferenceFrame::container;
     // ReturnedHealth fills this column. In our own runs an observer in the step loop does.
     all.more_columns = {"largest_overlap"};
     return all;
@@ -189,7 +189,7 @@ struct ReturnedRun::Impl {
     }
 
     // The frame of the dump with our steps and ids, in the room.
-    Frame ours(Frame frame) const {
+    State ours(State frame) const {
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const std::int32_t species = frame.species[i];
             if (species < 0 || species >= std::ssize(scene.species) || !(frame.radius[i] > 0))
@@ -232,7 +232,7 @@ struct ReturnedRun::Impl {
     ReturnedHealth health;
     Arrival arrival;
     std::optional<OutflowWriter> outflow;
-    std::optional<Frame> last;
+    std::optional<State> last;
 };
 
 ReturnedRun::ReturnedRun(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
@@ -243,11 +243,11 @@ ReturnedRun::~ReturnedRun() = default;
 
 bool ReturnedRun::take_next() {
     Impl& m = *impl_;
-    std::optional<Frame> there = m.dump.next();
+    std::optional<State> there = m.dump.next();
     if (!there) return false;
     // A run that continued from the engine's restart file writes its first moment once more.
     if (m.last && there->step - m.facts.shift <= m.last->step) return true;
-    Frame frame = m.ours(std::move(*there));
+    State frame = m.ours(std::move(*there));
     const GrainCount::Change change = m.count.compare(m.last ? &*m.last : nullptr, frame);
     const double overlap = m.health.look(frame);
     m.note_outflow(change.left, frame.step);
@@ -278,7 +278,7 @@ std::int64_t ReturnedRun::frames() const {
     return impl_->arrival.frames();
 }
 
-const Frame* ReturnedRun::last() const {
+const State* ReturnedRun::last() const {
     return impl_->last ? &*impl_->last : nullptr;
 }
 

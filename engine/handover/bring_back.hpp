@@ -14,10 +14,10 @@
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/frame.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -80,7 +80,7 @@ class ReturnedRun {
     void close(RunJson& record);
 
     std::int64_t frames() const;
-    const Frame* last() const;                               // null before the first
+    const State* last() const;                               // null before the first
     static constexpr const char* kFolder = kHandoverFolder;  // of deck and dump, in the run's folder
 
   private:

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/frame.hpp"
 #include "engine/handover/drive_formula.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -82,7 +82,7 @@ struct CarryNote {
 
 // The frame of reference of the run. In the container's frame all walls stand still, and grains feel minus
 // its acceleration.
-enum class RunFrame { lab, container };
+enum class ReferenceFrame { lab, container };
 
 struct CarriedScene {
     PeerEngine engine = PeerEngine::lammps;
@@ -97,7 +97,7 @@ struct CarriedScene {
     std::vector<Face> faces;               // all planes, cylinders and plates at rest, as the run begins
     std::vector<Face> opened;              // the same after the outlet has opened; empty if none opens
     std::vector<CarriedMesh> meshes;
-    RunFrame frame = RunFrame::lab;
+    ReferenceFrame frame = ReferenceFrame::lab;
     DriveFormula drive;              // empty where nothing is driven
     std::vector<TurnFormula> turns;  // angle of each face; empty expressions where it does not turn
 
@@ -129,7 +129,7 @@ struct CarriedScene {
     std::size_t type_count() const { return types.size(); }
     const CarriedPair& between(std::size_t a, std::size_t b) const { return pairs[a * types.size() + b]; }
     std::int64_t grains() const { return scene.grains_at_start(); }
-    bool rides() const { return frame == RunFrame::container && !drive.empty(); }
+    bool rides() const { return frame == ReferenceFrame::container && !drive.empty(); }
 };
 
 }  // namespace grainreel

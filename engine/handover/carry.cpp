@@ -224,7 +224,7 @@ std::string stays_behind(const Scene& scene) {
     if (scene.container.outlet) return "grains that have left stay behind";
     if (!scene.exits.empty()) return "exits stand still";
     if (!scene.feeds.empty()) return "the box of a feed stands still";
-    for (const FreeWall& wall : scene.walls)
+    for (const ScenePlane& wall : scene.walls)
         if (!wall.moves || !wall.velocity.isZero(0)) return "the wall " + wall.name + " moves otherwise";
     for (const SceneMesh& mesh : scene.meshes)
         if (!mesh.driven && mesh.name != scene.container.mesh)
@@ -287,7 +287,7 @@ void carry_walls(CarriedScene& carried) {
     carried.periodic = period_of_depth(scene.container) > 0;
     if (is_driven(scene)) {
         const std::string reason = stays_behind(scene);
-        carried.frame = reason.empty() ? RunFrame::container : RunFrame::lab;
+        carried.frame = reason.empty() ? ReferenceFrame::container : ReferenceFrame::lab;
         if (!reason.empty() && scene.container.wall_grains)
             add_refusal(
                 carried, scene.where("container.wall_grains"),

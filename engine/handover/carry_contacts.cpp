@@ -27,8 +27,8 @@ CarriedLaw law_of(const CarryRequest& request, const PairPlan& plan) {
 }
 
 // all: the pairs of sizes that may meet; the middle one has mean sizes.
-CarriedPair pair_of(CarriedLaw law, const PairPlan& plan, const std::vector<Touching>& all) {
-    const Touching& mean = all[all.size() / 2];
+CarriedPair pair_of(CarriedLaw law, const PairPlan& plan, const std::vector<PairSizes>& all) {
+    const PairSizes& mean = all[all.size() / 2];
     CarriedPair pair;
     pair.law = law;
     pair.effective_mass = mean.effective_mass;
@@ -52,7 +52,7 @@ CarriedPair pair_of(CarriedLaw law, const PairPlan& plan, const std::vector<Touc
         pair.tangential_damping = plan.tangential_damping_rate(mean.effective_mass);
         pair.restitution = plan.restitution_of(mean.effective_mass, 1);
         pair.lowest = 1, pair.highest = 0;
-        for (const Touching& sizes : all) {
+        for (const PairSizes& sizes : all) {
             const double natural = std::sqrt(plan.loading_stiffness / sizes.effective_mass);
             const double e = linear_restitution(pair.damping / (2 * natural), plan.attraction);
             pair.lowest = std::min(pair.lowest, e);
@@ -257,7 +257,7 @@ void say_changes(const CarryRequest& request, const LawChanges& changes, Carried
 
 void carry_laws(const CarryRequest& request, const Plan&, CarriedScene& carried) {
     LawChanges changes;
-    Contact& contact = carried.scene.contact;
+    SceneContacts& contact = carried.scene.contact;
     for (std::vector<PairContact>* kind : {&contact.grain, &contact.wall, &contact.mesh})
         for (PairContact& pair : *kind) carry_law(request, pair, changes);
     say_changes(request, changes, carried);

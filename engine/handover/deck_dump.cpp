@@ -70,14 +70,14 @@ bool DeckDump::look() {
     return true;
 }
 
-std::optional<Frame> DeckDump::next() {
+std::optional<State> DeckDump::next() {
     const auto is_known = [&] {
         return dump_ && next_ < dump_->moments().size() && !dump_->moments()[next_].open;
     };
     if (!is_known() && (!look() || !is_known())) return std::nullopt;
     const RawFrame raw = dump_->read(next_);
     if (next_ == 0) check_columns(raw.grains);
-    Frame frame = frame_of(raw);
+    State frame = frame_of(raw);
     ++next_;
     return frame;
 }
@@ -90,7 +90,7 @@ void DeckDump::check_columns(const RawTable& table) const {
             "{}: has other columns; the dump is to be that of the deck as it was written", file_.string()));
 }
 
-Frame DeckDump::frame_of(const RawFrame& raw) const {
+State DeckDump::frame_of(const RawFrame& raw) const {
     const std::vector<RawColumn>& columns = raw.grains.columns;
     for (std::size_t row = 0; row < raw.grains.rows; ++row)
         for (const RawColumn& column : columns)
@@ -100,7 +100,7 @@ Frame DeckDump::frame_of(const RawFrame& raw) const {
                     "that of the deck as it was written",
                     file_.string(), raw.step.value_or(0), columns[0].values[row], column.values[row],
                     column.name));
-    Frame frame;
+    State frame;
     frame.step = raw.step.value_or(0);
     const auto whole = [](double value) {  // the nearest that fits
         constexpr double least = std::numeric_limits<std::int32_t>::min(),

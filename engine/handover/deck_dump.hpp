@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -19,7 +19,7 @@ class DeckDump {
     // The next frame if it is whole; none if it is not whole yet, or if there are no more. Step, ids (from 1)
     // and species (types less 1) are the engine's; a species may be none of the scene's. Throws UserError
     // where the file holds something else than the deck asks for, and RunError where it became shorter.
-    std::optional<Frame> next();
+    std::optional<State> next();
     // Whether the file has become shorter than what was read of it.
     bool is_shorter() const;
     // Begins again with the first frame.
@@ -28,7 +28,7 @@ class DeckDump {
   private:
     bool look();
     void check_columns(const RawTable& table) const;
-    Frame frame_of(const RawFrame& raw) const;
+    State frame_of(const RawFrame& raw) const;
 
     std::filesystem::path file_;
     std::unique_ptr<RawFile> dump_;  // null before there is a whole frame

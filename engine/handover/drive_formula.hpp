@@ -1,5 +1,5 @@
 // Writes the drive as variables of LAMMPS' input language, which LIGGGHTS has too: `variable NAME equal
-// EXPRESSION`. The formulas are those of WallMotion (engine/state/wall_motion.hpp), with ramp, stages,
+// EXPRESSION`. The formulas are those of DriveMotion (engine/state/drive_motion.hpp), with ramp, stages,
 // changes and taps; both must stay the same.
 #pragma once
 

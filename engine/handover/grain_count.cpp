@@ -15,7 +15,7 @@ constexpr double kSlack = 1.5;  // factor on the way in free fall, because other
 }  // namespace
 
 // Whether the grain can reach an exit in that time. Other grains push it, but not far.
-bool GrainCount::may_leave(const Frame& before, std::size_t row, double seconds) const {
+bool GrainCount::may_leave(const State& before, std::size_t row, double seconds) const {
     const Vec3& at = before.position[row];
     const double way = before.velocity[row].norm() * seconds + scene_.gravity.norm() * seconds * seconds / 2;
     const double reach = kSlack * way + 4 * before.radius[row];
@@ -29,7 +29,7 @@ bool GrainCount::may_leave(const Frame& before, std::size_t row, double seconds)
     return false;
 }
 
-GrainCount::Change GrainCount::compare(const Frame* before, const Frame& now) const {
+GrainCount::Change GrainCount::compare(const State* before, const State& now) const {
     Change change;
     if (before == nullptr) {
         const std::int64_t wanted = scene_.grains_at_start();

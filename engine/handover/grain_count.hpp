@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -24,10 +24,10 @@ class GrainCount {
     // Which grains came and went between two frames that follow each other. before: null for the first frame.
     // Throws RunError where the first frame has too few grains, where a grain is missing that could not
     // leave, and where grains came in a scene without feeds.
-    Change compare(const Frame* before, const Frame& now) const;
+    Change compare(const State* before, const State& now) const;
 
   private:
-    bool may_leave(const Frame& before, std::size_t row, double seconds) const;
+    bool may_leave(const State& before, std::size_t row, double seconds) const;
 
     const Scene& scene_;
     std::string file_;

@@ -11,7 +11,7 @@
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/handover/decks.hpp"
-#include "engine/handover/engine_job.hpp"
+#include "engine/handover/peer_process.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/text/toml_text.hpp"
@@ -40,7 +40,7 @@ std::string facts_text(const CarriedScene& carried, const StartState& start, con
     out.put("written_for", quoted(version_of(carried.engine)));
     out.put("written_by", quoted("grainreel " + version));
     out.put("ranks", std::to_string(carried.ranks));
-    out.put("frame", quoted(carried.frame == RunFrame::container ? "container" : "lab"));
+    out.put("frame", quoted(carried.frame == ReferenceFrame::container ? "container" : "lab"));
     out.put("step", toml_number(carried.step));
     out.put("shift", std::to_string(carried.shift()));
     out.put("first", std::to_string(carried.first));
@@ -163,7 +163,8 @@ HandoverFacts read_handover(const fs::path& folder) {
     HandoverFacts all;
     all.engine =
         facts.choice("engine", "lammps", "liggghts") == "lammps" ? PeerEngine::lammps : PeerEngine::liggghts;
-    all.frame = facts.choice("frame", "container", "lab") == "lab" ? RunFrame::lab : RunFrame::container;
+    all.frame =
+        facts.choice("frame", "container", "lab") == "lab" ? ReferenceFrame::lab : ReferenceFrame::container;
     all.ranks = static_cast<int>(std::min<std::int64_t>(facts.whole("ranks", 1), 1'000'000'000));
     all.step = facts.number("step");
     all.shift = facts.whole("shift");
@@ -350,9 +351,10 @@ std::int64_t useful_ranks(std::int64_t grains) {
     return std::max<std::int64_t>(1, grains / 5000);
 }
 
-double peer_seconds(PeerEngine engine, RunFrame frame, std::int64_t grains, std::int64_t steps, int ranks) {
+double peer_seconds(PeerEngine engine, ReferenceFrame frame, std::int64_t grains, std::int64_t steps,
+                    int ranks) {
     const PeerRate rate = rate_of(engine);
-    const double one = frame == RunFrame::container ? rate.standing : rate.moving;
+    const double one = frame == ReferenceFrame::container ? rate.standing : rate.moving;
     const double together = ranks > 1 ? 0.8 * ranks : 1;
     return static_cast<double>(grains) * static_cast<double>(steps) / (one * together);
 }

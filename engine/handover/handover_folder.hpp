@@ -20,7 +20,7 @@ void write_handover(const std::filesystem::path& folder, const CarriedScene& car
 struct HandoverFacts {
     PeerEngine engine = PeerEngine::lammps;
     int ranks = 1;
-    RunFrame frame = RunFrame::lab;
+    ReferenceFrame frame = ReferenceFrame::lab;
     double step = 0;                              // s
     std::int64_t shift = 0;                       // the engine's step is ours plus this
     std::int64_t first = 0, last = 0;             // first and last step, as we count
@@ -58,7 +58,8 @@ PeerRate rate_of(PeerEngine engine);
 std::int64_t useful_ranks(std::int64_t grains);
 // Time in s for so many steps. Where there are several ranks, each has four fifths of the speed of a single
 // one.
-double peer_seconds(PeerEngine engine, RunFrame frame, std::int64_t grains, std::int64_t steps, int ranks);
+double peer_seconds(PeerEngine engine, ReferenceFrame frame, std::int64_t grains, std::int64_t steps,
+                    int ranks);
 double peer_bytes(PeerEngine engine, std::int64_t grains);
 
 // So many ranks of the faster engine are as fast as one thread of ours.

@@ -147,10 +147,10 @@ struct ReturnedHealth::Impl {
           peaks(drive_peaks(scene.drive)) {}
 
     void find_contacts(const Grains& grains, std::int64_t step);
-    void find_walls(const Grains& grains, const Pose& pose, std::int32_t grain);
+    void find_walls(const Grains& grains, const DrivePose& pose, std::int32_t grain);
     double stored_in(const Grains& grains) const;
     const PairPlan& pair_of(const Grains& grains, const Seen& contact) const;
-    Account account_of(const Grains& grains, const Frame& frame) const;
+    Account account_of(const Grains& grains, const State& frame) const;
     void check_energy(const Grains& grains, const Account& now, std::int64_t step) const;
     double fallen(const Grains& grains, double& mass, double& lift) const;
 
@@ -166,7 +166,7 @@ struct ReturnedHealth::Impl {
 };
 
 // Finds the contacts with faces and meshes.
-void ReturnedHealth::Impl::find_walls(const Grains& grains, const Pose& pose, std::int32_t grain) {
+void ReturnedHealth::Impl::find_walls(const Grains& grains, const DrivePose& pose, std::int32_t grain) {
     const Place& place = grains.place[grain];
     const auto faces = static_cast<std::int32_t>(around.faces.size());
     for (std::int32_t f = 0; f < faces; ++f) {
@@ -187,7 +187,7 @@ void ReturnedHealth::Impl::find_walls(const Grains& grains, const Pose& pose, st
 
 void ReturnedHealth::Impl::find_contacts(const Grains& grains, std::int64_t step) {
     contacts.clear();
-    const Pose pose = around.motion.at(step);
+    const DrivePose pose = around.motion.at(step);
     std::vector<Place> bodies(grains.place.begin(), grains.place.end());
     for (std::size_t g = 0; g < around.glued.size(); ++g)
         bodies.push_back({around.glued.centre(g, around.faces, pose), around.glued.place[g].radius});
@@ -223,7 +223,7 @@ double ReturnedHealth::Impl::stored_in(const Grains& grains) const {
     return sum;
 }
 
-Account ReturnedHealth::Impl::account_of(const Grains& grains, const Frame& frame) const {
+Account ReturnedHealth::Impl::account_of(const Grains& grains, const State& frame) const {
     Account now{.step = frame.step, .time = frame.time, .stored = stored_in(grains)};
     for (std::size_t i = 0; i < grains.size(); ++i)
         now.momentum += grains.mass(i) * grains.motion[i].velocity.norm();
@@ -280,7 +280,7 @@ ReturnedHealth::ReturnedHealth(const Scene& scene, const Plan& plan)
 
 ReturnedHealth::~ReturnedHealth() = default;
 
-double ReturnedHealth::look(const Frame& frame) {
+double ReturnedHealth::look(const State& frame) {
     Impl& m = *impl_;
     if (!m.opened && m.plan.opens && frame.step >= *m.plan.opens) {
         open_outlet(m.scene, m.around);

@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/grains.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -24,7 +24,7 @@ class ReturnedHealth {
     // divided by the smaller radius. Throws RunError, with step and grain, where a grain went through a wall,
     // overlaps too far or is too fast for the step, and where the grains gained more energy than walls can
     // give.
-    double look(const Frame& frame);
+    double look(const State& frame);
 
   private:
     struct Impl;

@@ -13,8 +13,8 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/start/layers.hpp"
+#include "engine/state/drive_motion.hpp"
 #include "engine/state/glued_grains.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 
@@ -40,7 +40,7 @@ struct RoomOfLattice {
         if (!carried.scene.meshes.empty()) return space.holds(place, margin);
         for (const Face& face : carried.faces) {
             const double from_glued = face.body.number == kTrayBody ? 0 : glued;
-            if (distance_at(face, Pose(), place).distance < margin + from_glued) return false;
+            if (distance_at(face, DrivePose(), place).distance < margin + from_glued) return false;
         }
         return true;
     }
@@ -93,8 +93,8 @@ using Grain = StartState::Grain;
 // Packs with our engine. Grains that lie in an exit are handed over too, because the other engine lets them
 // leave.
 bool packed_here(const CarriedScene& carried, int threads, const PackingWatcher& watcher, StartState& start) {
-    Simulation run(carried.scene, carried.plan, threads);
-    Frame frame;
+    SimulatedBed run(carried.scene, carried.plan, threads);
+    State frame;
     const PackingResult result = run.pack(watcher, [&](const PackingResult&) { frame = run.frame(); });
     start.stopped = !result.finished;
     start.settled = result.settled;
@@ -143,13 +143,13 @@ void add_glued(const CarriedScene& carried, StartState& start) {
                                 .type = static_cast<int>(carried.type_count()),
                                 .diameter = 2 * glued.place[g].radius,
                                 .density = carried.types.back().density,
-                                .position = glued.centre(g, carried.faces, Pose())});
+                                .position = glued.centre(g, carried.faces, DrivePose())});
 }
 
 // Changes places and velocities of free grains to those relative to the container.
 void into_frame(const CarriedScene& carried, std::size_t free_grains, StartState& start) {
     if (!carried.rides()) return;
-    const Pose pose = WallMotion(carried.scene.drive, carried.plan.clock).at(carried.first);
+    const DrivePose pose = DriveMotion(carried.scene.drive, carried.plan.clock).at(carried.first);
     for (std::size_t i = 0; i < free_grains; ++i) {
         start.grains[i].position -= pose.offset;
         // If the deck packs first, nothing moves yet.

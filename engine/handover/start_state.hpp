@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/handover/carried_scene.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 
 namespace grainreel {
 
@@ -28,7 +28,7 @@ struct StartState {
 };
 
 // Packs as a run of ours does, or puts the grains on a lattice if the deck packs. Sets the box of `carried`
-// (low, high) so that it holds all grains. Throws UserError and RunError as Simulation does.
+// (low, high) so that it holds all grains. Throws UserError and RunError as SimulatedBed does.
 StartState start_state(CarriedScene& carried, int threads, const PackingWatcher& watcher);
 
 // Writes a file for atom_style sphere of LAMMPS and granular of LIGGGHTS. types: number of types in the deck,

@@ -33,7 +33,7 @@ struct StepBefore<R, true> {
 };
 
 template <class NormalLawType, class TangentialLawType>
-struct ContactLaw {
+struct LawPair {
     using Normal = NormalLawType;
     using Tangential = TangentialLawType;
     static constexpr bool rubs = Tangential::rubs;  // needs slip, twist and spin
@@ -113,7 +113,7 @@ struct ContactLaw {
     // The force at the present instant, without a step, and the energies. `velocity` is the present velocity.
     template <class R>
     static HWY_INLINE Force<R> now(const Parameters<R>& p, const History<R>& h, Touch<R> touch,
-                                   const Triple<R>& velocity, Energies<R>& e) {
+                                   const Triple<R>& velocity, ContactEnergies<R>& e) {
         set_velocity(touch, velocity);
         Force<R> f{Normal::now(p.normal, h.normal, touch), {R(0), R(0), R(0)}};
         e = {Normal::stored_energy(p.normal, h.normal, touch, f.normal), R(0), R(0), R(0), R(0)};

@@ -14,7 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 template <class L>
-HWY_INLINE void put_energies(typename L::Mask touching, const Energies<L>& e, int c, EnergyChunk& out) {
+HWY_INLINE void put_energies(typename L::Mask touching, const ContactEnergies<L>& e, int c,
+                             EnergyChunk& out) {
     store_as(select(touching, e.stored, L(0.0)), out.stored + c);
     store_as(select(touching, e.sideways, L(0.0)), out.sideways + c);
     store_as(select(touching, e.latched, L(0.0)), out.latched + c);
@@ -29,7 +30,7 @@ void observe_chunk(const LawInput& in, const void* history, ForceChunk& out, Ene
         const auto touching = touching_at<L, double>(in, c);
         typename Law::template History<L> h;
         h.each(LoadHistory<L>(numbers + place_in_history(c, in.history_stride)));
-        Energies<L> e;
+        ContactEnergies<L> e;
         const auto force = Law::now(parameters_at<Law, L>(in, c), h, touch_at<Law, L, double>(in, c),
                                     velocity_at<Law, L, double>(in, c), e);
         put_force<Law, L, double>(touching, force, c, out);

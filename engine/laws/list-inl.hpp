@@ -28,11 +28,11 @@ template <class L, class Normal>
 const LawKernel* with_linear(TangentialLaw tangential) {
     switch (tangential) {
         case TangentialLaw::incremental_slip:
-            return &kernel_of<ContactLaw<Normal, IncrementalSlip>, L>();
+            return &kernel_of<LawPair<Normal, IncrementalSlip>, L>();
         case TangentialLaw::linear_spring:
-            return &kernel_of<ContactLaw<Normal, LinearSpring>, L>();
+            return &kernel_of<LawPair<Normal, LinearSpring>, L>();
         case TangentialLaw::none:
-            return &kernel_of<ContactLaw<Normal, Frictionless>, L>();
+            return &kernel_of<LawPair<Normal, Frictionless>, L>();
         case TangentialLaw::mindlin:
             break;
     }
@@ -41,8 +41,8 @@ const LawKernel* with_linear(TangentialLaw tangential) {
 
 template <class L>
 const LawKernel* with_hertz(TangentialLaw tangential) {
-    if (tangential == TangentialLaw::mindlin) return &kernel_of<ContactLaw<Hertz, Mindlin>, L>();
-    if (tangential == TangentialLaw::none) return &kernel_of<ContactLaw<Hertz, Frictionless>, L>();
+    if (tangential == TangentialLaw::mindlin) return &kernel_of<LawPair<Hertz, Mindlin>, L>();
+    if (tangential == TangentialLaw::none) return &kernel_of<LawPair<Hertz, Frictionless>, L>();
     return nullptr;
 }
 

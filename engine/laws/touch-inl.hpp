@@ -30,7 +30,7 @@ struct Touch {
 
 // The energies and powers of a contact that an observer gets.
 template <class R>
-struct Energies {
+struct ContactEnergies {
     R stored;    // J, energy that the contact would give back if it were unloaded
     R sideways;  // J, the part of it in tangential and rolling springs
     R latched;   // J, energy lost in the latching spring since the bodies met, if they were unloaded now

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
+#include "engine/files/frames/state_writer.hpp"
 #include "engine/run/stored/stored_run.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -28,7 +28,7 @@ ReadingOptions reading_of(const ReadOptions& options) {
 }
 
 // The frames of a caller's reader, checked, as an archive of the program.
-class OwnArchive final : public FrameArchive {
+class OwnArchive final : public StateArchive {
   public:
     OwnArchive(std::filesystem::path path, std::unique_ptr<FrameSource> source)
         : path_(std::move(path)), source_(std::move(source)) {
@@ -39,16 +39,16 @@ class OwnArchive final : public FrameArchive {
     }
 
     const std::filesystem::path& path() const override { return path_; }
-    const grainreel::World& world() const override { return world_; }
-    FrameSupply supply() const override {
-        FrameSupply supply;
+    const grainreel::StoredWorld& world() const override { return world_; }
+    StateSupply supply() const override {
+        StateSupply supply;
         supply.velocities = supply.spins = source_->has_velocities();
         return supply;
     }
-    const std::vector<grainreel::Frame>& moments() const override { return moments_; }
-    grainreel::Frame grains(std::size_t index) const override {
+    const std::vector<grainreel::State>& moments() const override { return moments_; }
+    grainreel::State grains(std::size_t index) const override {
         const std::string who = fmt::format("{}: frame {}", path_.string(), index);
-        grainreel::Frame frame = inside(source_->frame(index), world_.species.size(), who);
+        grainreel::State frame = inside(source_->frame(index), world_.species.size(), who);
         frame.step = moments_[index].step;
         frame.time = frame.cycles = moments_[index].time;
         frame.phase = 0;
@@ -59,15 +59,15 @@ class OwnArchive final : public FrameArchive {
     void add_moment(double time) {
         if (!moments_.empty() && !(time >= moments_.back().time) && !std::isnan(time))
             throw Error(fmt::format("{}: the times of its frames do not rise", path_.string()));
-        grainreel::Frame& moment = moments_.emplace_back();
+        grainreel::State& moment = moments_.emplace_back();
         moment.step = std::ssize(moments_) - 1;
         moment.time = moment.cycles = time;
     }
 
     std::filesystem::path path_;
     std::unique_ptr<FrameSource> source_;
-    grainreel::World world_;
-    std::vector<grainreel::Frame> moments_;
+    grainreel::StoredWorld world_;
+    std::vector<grainreel::State> moments_;
 };
 
 class Adapted final : public OwnReader {
@@ -75,11 +75,10 @@ class Adapted final : public OwnReader {
     explicit Adapted(std::shared_ptr<const FrameReader> reader) : reader_(std::move(reader)) {}
     std::string name() const override { return reader_->name(); }
     std::string about() const override { return reader_->about(); }
-    bool takes(const grainreel::FileHead& head) const override {
+    bool takes(const grainreel::FileStart& head) const override {
         return reader_->takes({head.path, head.folder, head.size, head.bytes});
     }
-    std::unique_ptr<FrameArchive> open(const std::filesystem::path& path,
-                                       const FrameRequest&) const override {
+    std::unique_ptr<StateArchive> open(const std::filesystem::path& path, const OpenRequest&) const override {
         return std::make_unique<OwnArchive>(path, reader_->open(path));
     }
 
@@ -147,7 +146,7 @@ void add_reader(std::shared_ptr<const FrameReader> reader) {
 
 std::vector<std::string> written_formats() {
     std::vector<std::string> names;
-    for (const FrameFormat& format : frame_formats()) names.emplace_back(format.name);
+    for (const WriteFormat& format : frame_formats()) names.emplace_back(format.name);
     return names;
 }
 
@@ -160,19 +159,19 @@ struct FrameWriter::Impl {
     std::string name() const { return file.string(); }
     void leave_nothing();
     void make(const std::string& format);
-    void begin(const grainreel::Frame& first);
-    void put(const grainreel::Frame& frame);
-    void check_orientation(const grainreel::Frame& frame) const;
-    void take_step(grainreel::Frame& frame);
-    void check_time(const grainreel::Frame& frame) const;
+    void begin(const grainreel::State& first);
+    void put(const grainreel::State& frame);
+    void check_orientation(const grainreel::State& frame) const;
+    void take_step(grainreel::State& frame);
+    void check_time(const grainreel::State& frame) const;
 
     std::filesystem::path file;
-    grainreel::World world;
-    std::unique_ptr<grainreel::FrameWriter> writer;
+    grainreel::StoredWorld world;
+    std::unique_ptr<grainreel::StateWriter> writer;
     bool made = false, begun = false, closed = false;
     std::int64_t frames = 0;
-    std::vector<grainreel::Frame> waiting;
-    FrameSupply supply;
+    std::vector<grainreel::State> waiting;
+    StateSupply supply;
     double time = 0;        // s, time of the last frame
     std::int64_t step = 0;  // step of the last frame
     bool numbered = true;   // all frames came with the step 0
@@ -198,15 +197,15 @@ void FrameWriter::Impl::make(const std::string& format) {
 }
 
 // The first frame with grains tells what all frames have. Those before it wait.
-void FrameWriter::Impl::begin(const grainreel::Frame& first) {
+void FrameWriter::Impl::begin(const grainreel::State& first) {
     supply.orientations = !first.orientation.empty();
     writer->begin(world, supply);
     begun = true;
-    for (const grainreel::Frame& frame : waiting) writer->frame(frame, {});
+    for (const grainreel::State& frame : waiting) writer->frame(frame, {});
     waiting.clear();
 }
 
-void FrameWriter::Impl::put(const grainreel::Frame& frame) {
+void FrameWriter::Impl::put(const grainreel::State& frame) {
     if (frames == 0) world.time_known = !std::isnan(frame.time);
     if (!begun && frame.size() == 0) {
         waiting.push_back(frame);
@@ -216,7 +215,7 @@ void FrameWriter::Impl::put(const grainreel::Frame& frame) {
     writer->frame(frame, {});
 }
 
-void FrameWriter::Impl::check_orientation(const grainreel::Frame& frame) const {
+void FrameWriter::Impl::check_orientation(const grainreel::State& frame) const {
     if (!begun || frame.size() == 0 || supply.orientations == !frame.orientation.empty()) return;
     throw Error(
         fmt::format("{}: frame {}: has {}orientations, unlike the frames before it; give them in all "
@@ -224,7 +223,7 @@ void FrameWriter::Impl::check_orientation(const grainreel::Frame& frame) const {
                     name(), frames, supply.orientations ? "no " : ""));
 }
 
-void FrameWriter::Impl::check_time(const grainreel::Frame& frame) const {
+void FrameWriter::Impl::check_time(const grainreel::State& frame) const {
     if (frames == 0) return;
     if (std::isnan(frame.time) != !world.time_known)
         throw Error(fmt::format(
@@ -239,7 +238,7 @@ void FrameWriter::Impl::check_time(const grainreel::Frame& frame) const {
 }
 
 // Readers of many formats take two frames with one step for one frame, written twice.
-void FrameWriter::Impl::take_step(grainreel::Frame& frame) {
+void FrameWriter::Impl::take_step(grainreel::State& frame) {
     if (frames == 0) return;
     if (numbered && frame.step == 0) {
         frame.step = step + 1;
@@ -263,7 +262,7 @@ void FrameWriter::write(const Frame& frame) {
     Impl& to = *impl_;
     if (to.closed) throw Error(fmt::format("{}: is closed", to.name()));
     const std::string who = fmt::format("{}: frame {}", to.name(), to.frames);
-    grainreel::Frame inner = inside(frame, to.world.species.size(), who);
+    grainreel::State inner = inside(frame, to.world.species.size(), who);
     take_poses(inner, frame.bodies.size(), to.world.bodies.size(), who);
     if (std::isnan(inner.time) && std::isnan(inner.cycles)) inner.cycles = 0;
     check_moment(inner, who);

@@ -94,7 +94,7 @@ void check_species(const Frame& frame, std::size_t species, const std::string& w
 
 }  // namespace
 
-void take_poses(grainreel::Frame& frame, std::size_t given, std::size_t bodies, const std::string& who) {
+void take_poses(grainreel::State& frame, std::size_t given, std::size_t bodies, const std::string& who) {
     if (given > 0 && given < bodies)
         throw Error(
             fmt::format("{}: has {} poses in `bodies`; give none, or {}: container, floor and {} walls", who,
@@ -102,14 +102,14 @@ void take_poses(grainreel::Frame& frame, std::size_t given, std::size_t bodies, 
     frame.bodies.resize(bodies);
 }
 
-void check_moment(const grainreel::Frame& frame, const std::string& who) {
-    grainreel::Frame moment = moment_of(frame);
+void check_moment(const grainreel::State& frame, const std::string& who) {
+    grainreel::State moment = moment_of(frame);
     if (std::isnan(moment.time)) moment.time = 0;
     if (const std::optional<std::string> fault = moment_fault(moment))
         throw Error(fmt::format("{}: {}", who, *fault));
 }
 
-Frame outside(const grainreel::Frame& from) {
+Frame outside(const grainreel::State& from) {
     Frame frame;
     frame.step = from.step;
     frame.time = from.time;
@@ -127,11 +127,11 @@ Frame outside(const grainreel::Frame& from) {
     return frame;
 }
 
-grainreel::Frame inside(const Frame& from, std::size_t species, const std::string& who) {
+grainreel::State inside(const Frame& from, std::size_t species, const std::string& who) {
     check_lengths(from, who);
     check_ids(from, who);
     check_species(from, species, who);
-    grainreel::Frame frame;
+    grainreel::State frame;
     frame.step = from.step;
     frame.time = from.time;
     frame.cycles = from.cycles;
@@ -154,7 +154,7 @@ grainreel::Frame inside(const Frame& from, std::size_t species, const std::strin
     return frame;
 }
 
-World outside(const grainreel::World& from) {
+World outside(const grainreel::StoredWorld& from) {
     World world;
     world.title = from.title;
     for (const WorldSpecies& one : from.species) {
@@ -207,12 +207,12 @@ void check_species_of_world(const std::vector<WorldSpecies>& species) {
 
 }  // namespace
 
-grainreel::World inside(const World& from) {
+grainreel::StoredWorld inside(const World& from) {
     if (from.species.empty()) throw Error("a world has no species; name one at least");
     if (!from.density.empty() && from.density.size() != from.species.size())
         throw Error(fmt::format("a world has {} species and {} densities; give one each, or none",
                                 from.species.size(), from.density.size()));
-    grainreel::World world;
+    grainreel::StoredWorld world;
     world.title = from.title;
     for (std::size_t s = 0; s < from.species.size(); ++s) {
         WorldSpecies& one = world.species.emplace_back();

@@ -16,13 +16,13 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/vector.hpp"
-#include "engine/files/frames/frame_archive.hpp"
-#include "engine/files/frames/world.hpp"
-#include "engine/frame.hpp"
+#include "engine/files/frames/state_archive.hpp"
+#include "engine/files/frames/stored_world.hpp"
 #include "engine/laws/law_kernel.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/stored/stored_run.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
 #include "grainreel/contact_law.hpp"
 #include "grainreel/error.hpp"
 #include "grainreel/files.hpp"
@@ -56,20 +56,20 @@ Vector outside(const Vec3& v);
 Quaternion inside(const Rotation& r);
 Rotation outside(const Quaternion& q);
 
-Frame outside(const grainreel::Frame& frame);
+Frame outside(const grainreel::State& frame);
 // Throws Error where lists differ in length, ids do not rise, a number is not finite or a species is not less
 // than `species`. who: the beginning of the message.
-grainreel::Frame inside(const Frame& frame, std::size_t species, const std::string& who);
+grainreel::State inside(const Frame& frame, std::size_t species, const std::string& who);
 
 // Gives a frame of the caller as many poses as its world has bodies; further ones are not used. given: how
 // many the caller gave. Throws Error where these are some but not all.
-void take_poses(grainreel::Frame& frame, std::size_t given, std::size_t bodies, const std::string& who);
+void take_poses(grainreel::State& frame, std::size_t given, std::size_t bodies, const std::string& who);
 // Throws Error where the time, the cycles or a pose is no number, or one that no run can have. A time of NaN,
 // which is not known, passes.
-void check_moment(const grainreel::Frame& frame, const std::string& who);
+void check_moment(const grainreel::State& frame, const std::string& who);
 
-World outside(const grainreel::World& world);
-grainreel::World inside(const World& world);
+World outside(const grainreel::StoredWorld& world);
+grainreel::StoredWorld inside(const World& world);
 
 // Throws Error where a number of threads is none that a scene file may have in run.threads.
 void check_threads(int threads);

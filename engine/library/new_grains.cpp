@@ -21,7 +21,7 @@ std::string words_of(const Vec3& place) {
     return fmt::format("a new grain at ({:.4g}, {:.4g}, {:.4g}) m", place.x(), place.y(), place.z());
 }
 
-[[noreturn]] void refuse(const grainreel::NewGrain& grain, const std::string& why) {
+[[noreturn]] void refuse(const grainreel::ComingGrain& grain, const std::string& why) {
     throw Error(fmt::format("{} {}; choose a free place", words_of(grain.position), why));
 }
 
@@ -42,14 +42,14 @@ void check_density(const NewGrain& grain) {
                     grain.density, bounds.least, bounds.most));
 }
 
-grainreel::NewGrain grain_inside(const NewGrain& grain, const grainreel::Scene& scene) {
+grainreel::ComingGrain grain_inside(const NewGrain& grain, const grainreel::Scene& scene) {
     if (grain.species < 0 || grain.species >= std::ssize(scene.species))
         throw Error(fmt::format("a new grain is of species {}; there are {}, which count from 0",
                                 grain.species, scene.species.size()));
     const Species& kind = scene.species[static_cast<std::size_t>(grain.species)];
     check_radius(grain, kind);
     check_density(grain);
-    grainreel::NewGrain inner;
+    grainreel::ComingGrain inner;
     inner.species = grain.species;
     inner.radius = grain.radius;
     inner.density = grain.density > 0 ? grain.density : kind.density;
@@ -66,12 +66,12 @@ grainreel::NewGrain grain_inside(const NewGrain& grain, const grainreel::Scene& 
 
 }  // namespace
 
-RoomForGrains::RoomForGrains(const grainreel::Scene& scene, const Plan& plan, const grainreel::Frame& now)
+RoomForGrains::RoomForGrains(const grainreel::Scene& scene, const Plan& plan, const grainreel::State& now)
     : scene_(scene), now_(now), around_(make_surroundings(scene, plan)), pose_(around_.motion.at(now.step)) {
     if (plan.opens && now.step >= *plan.opens) open_outlet(scene, around_);
 }
 
-void RoomForGrains::check_walls(const grainreel::NewGrain& grain) const {
+void RoomForGrains::check_walls(const grainreel::ComingGrain& grain) const {
     for (const Face& face : around_.faces) {
         const double distance = distance_at(face, pose_, grain.position).distance;
         if (distance >= grain.radius) continue;
@@ -82,7 +82,7 @@ void RoomForGrains::check_walls(const grainreel::NewGrain& grain) const {
                     "a grain that is glued to a wall");
 }
 
-void RoomForGrains::check_meshes(const grainreel::NewGrain& grain) const {
+void RoomForGrains::check_meshes(const grainreel::ComingGrain& grain) const {
     for (const MeshWall& mesh : around_.meshes) {
         const Vec3 place = mesh.body.at(pose_).at_rest(grain.position);
         if (const std::string why = why_no_grain_at(scene_, mesh, place); !why.empty()) refuse(grain, why);
@@ -91,20 +91,20 @@ void RoomForGrains::check_meshes(const grainreel::NewGrain& grain) const {
     }
 }
 
-void RoomForGrains::check_other(const grainreel::NewGrain& grain, const Vec3& other, double radius,
+void RoomForGrains::check_other(const grainreel::ComingGrain& grain, const Vec3& other, double radius,
                                 const char* what) const {
     Vec3 between = grain.position - other;
     between.x() = wrapped(between.x(), around_.period);
     if (between.norm() < grain.radius + radius) refuse(grain, fmt::format("touches {}", what));
 }
 
-grainreel::NewGrain RoomForGrains::take(const NewGrain& grain) {
-    const grainreel::NewGrain inner = grain_inside(grain, scene_);
+grainreel::ComingGrain RoomForGrains::take(const NewGrain& grain) {
+    const grainreel::ComingGrain inner = grain_inside(grain, scene_);
     check_walls(inner);
     check_meshes(inner);
     for (std::size_t i = 0; i < now_.size(); ++i)
         check_other(inner, now_.position[i], now_.radius[i], "another");
-    for (const grainreel::NewGrain& other : taken_)
+    for (const grainreel::ComingGrain& other : taken_)
         check_other(inner, other.position, other.radius, "another new one");
     taken_.push_back(inner);
     return inner;

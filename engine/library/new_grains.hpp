@@ -14,23 +14,23 @@ namespace grainreel::v1 {
 class RoomForGrains {
   public:
     // `now` has the grains that are there. All three must outlive this object.
-    RoomForGrains(const grainreel::Scene& scene, const Plan& plan, const grainreel::Frame& now);
+    RoomForGrains(const grainreel::Scene& scene, const Plan& plan, const grainreel::State& now);
 
     // Throws Error where the grain has a number that it cannot have, touches a grain or a wall, or lies
     // outside the container or inside a closed mesh. The grain counts as being there from now on.
-    grainreel::NewGrain take(const NewGrain& grain);
+    grainreel::ComingGrain take(const NewGrain& grain);
 
   private:
-    void check_walls(const grainreel::NewGrain& grain) const;
-    void check_meshes(const grainreel::NewGrain& grain) const;
-    void check_other(const grainreel::NewGrain& grain, const Vec3& other, double radius,
+    void check_walls(const grainreel::ComingGrain& grain) const;
+    void check_meshes(const grainreel::ComingGrain& grain) const;
+    void check_other(const grainreel::ComingGrain& grain, const Vec3& other, double radius,
                      const char* what) const;
 
     const grainreel::Scene& scene_;
-    const grainreel::Frame& now_;
+    const grainreel::State& now_;
     Surroundings around_;
-    grainreel::Pose pose_;
-    std::vector<grainreel::NewGrain> taken_;
+    grainreel::DrivePose pose_;
+    std::vector<grainreel::ComingGrain> taken_;
 };
 
 }  // namespace grainreel::v1

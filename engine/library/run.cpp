@@ -6,8 +6,8 @@
 #include <csignal>
 #include <utility>
 
-#include "engine/run/folder/scene_folder_run.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/folder/scene_job.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "grainreel/run.hpp"
 
 namespace grainreel::v1 {
@@ -30,7 +30,7 @@ std::vector<std::int64_t> steps_to_look_at(const Plan& plan, const RunOptions& o
 class Looker final : public SilentListener {
   public:
     explicit Looker(const RunOptions& options) : options_(options) {}
-    void look(const grainreel::Frame& now) {
+    void look(const grainreel::State& now) {
         try {
             if (!options_.look(outside(now))) stopped_ = true;
         } catch (...) {
@@ -50,20 +50,20 @@ class Looker final : public SilentListener {
     std::exception_ptr thrown_;
 };
 
-class LookedAt final : public SceneFolderRun {
+class LookedAt final : public SceneJob {
   public:
-    LookedAt(const RunRequest& request, Looker& looker, const grainreel::Scene& scene, const Plan& plan,
+    LookedAt(const JobRequest& request, Looker& looker, const grainreel::Scene& scene, const Plan& plan,
              std::vector<std::int64_t> steps)
-        : SceneFolderRun(request, looker, scene, plan), looker_(looker), steps_(std::move(steps)) {}
+        : SceneJob(request, looker, scene, plan), looker_(looker), steps_(std::move(steps)) {}
 
   private:
     void start() override {
-        FrameWishes wishes;
+        FilmWishes wishes;
         wishes.steps = steps_;
         driver_.start(std::move(wishes));
     }
     bool next(const RunDriver::GoOn& go_on) override {
-        const std::shared_ptr<grainreel::Frame> frame = driver_.next(go_on);
+        const std::shared_ptr<grainreel::State> frame = driver_.next(go_on);
         if (frame) looker_.look(*frame);
         return frame && !looker_.stopped();
     }
@@ -74,7 +74,7 @@ class LookedAt final : public SceneFolderRun {
 
 Frame run_in_folder(const grainreel::Scene& scene, const Plan& plan, const RunOptions& options,
                     Looker& looker) {
-    RunRequest request;
+    JobRequest request;
     request.out = options.folder;
     LookedAt run(request, looker, scene, plan, steps_to_look_at(plan, options));
     run.run();
@@ -84,7 +84,7 @@ Frame run_in_folder(const grainreel::Scene& scene, const Plan& plan, const RunOp
 
 Frame run_in_memory(const grainreel::Scene& scene, const Plan& plan, const RunOptions& options,
                     Looker& looker) {
-    grainreel::Simulation simulation(scene, plan, engine_threads(scene));
+    grainreel::SimulatedBed simulation(scene, plan, engine_threads(scene));
     simulation.pack();
     for (const std::int64_t step : steps_to_look_at(plan, options)) {
         if (step < simulation.step()) continue;

@@ -12,7 +12,7 @@
 #include "engine/base/text.hpp"
 #include "engine/library/new_grains.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/state/checkpoint_file.hpp"
 #include "grainreel/simulation.hpp"
@@ -109,7 +109,7 @@ struct Simulation::Impl {
     std::deque<OwnLaw> laws;  // declared before `running`, so that they outlive it
     grainreel::Scene inner;
     Plan plan;
-    std::unique_ptr<grainreel::Simulation> running;
+    std::unique_ptr<grainreel::SimulatedBed> running;
     bool packed = false;
 
     void need_grains() {
@@ -126,15 +126,15 @@ Simulation::Simulation(const Scene& scene, const SimulationOptions& options)
     : impl_(std::make_unique<Impl>(scene, options)) {
     Impl& m = *impl_;
     m.running = told(
-        [&] { return std::make_unique<grainreel::Simulation>(m.inner, m.plan, engine_threads(m.inner)); });
+        [&] { return std::make_unique<grainreel::SimulatedBed>(m.inner, m.plan, engine_threads(m.inner)); });
 }
 
 namespace {
 
 // The run at a checkpoint. The program's messages name the scene's key start.file, which a user of the
 // library has not written; here they begin with the checkpoint's name.
-std::unique_ptr<grainreel::Simulation> at_checkpoint(const grainreel::Scene& scene, const Plan& plan,
-                                                     const std::filesystem::path& file) {
+std::unique_ptr<grainreel::SimulatedBed> at_checkpoint(const grainreel::Scene& scene, const Plan& plan,
+                                                       const std::filesystem::path& file) {
     const std::string name = file.string();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored))
@@ -143,8 +143,8 @@ std::unique_ptr<grainreel::Simulation> at_checkpoint(const grainreel::Scene& sce
         throw Error(
             fmt::format("{}: is no checkpoint; give a file that save_checkpoint() or a run wrote", name));
     try {
-        return std::make_unique<grainreel::Simulation>(
-            grainreel::Simulation::at_checkpoint(scene, plan, file, engine_threads(scene)));
+        return std::make_unique<grainreel::SimulatedBed>(
+            grainreel::SimulatedBed::at_checkpoint(scene, plan, file, engine_threads(scene)));
     } catch (const UserError& error) {
         grainreel::Scene there = scene;
         there.start.file = name;
@@ -237,7 +237,7 @@ Frame Simulation::frame() const {
 std::vector<Contact> Simulation::contacts() const {
     impl_->need_grains();
     std::vector<Contact> contacts;
-    for (const grainreel::ContactForce& one : impl_->running->contact_forces())
+    for (const grainreel::DetailedContact& one : impl_->running->contact_forces())
         contacts.push_back({.first = one.first,
                             .second = one.second,
                             .normal = outside(one.normal),
@@ -302,7 +302,7 @@ std::vector<Field> Simulation::fields() const {
             field.unit = info.unit;
             field.values = std::move(values[s][f]);
             for (const std::string& name : info.axes)
-                for (const grainreel::FieldAxis& axis : sets[s]->axes)
+                for (const grainreel::MeasuredAxis& axis : sets[s]->axes)
                     if (axis.name == name) field.axes.push_back({axis.name, axis.unit, axis.at});
         }
     }
@@ -317,9 +317,9 @@ std::uint64_t Simulation::state_hash() const {
 std::int32_t Simulation::insert(const std::vector<NewGrain>& grains) {
     Impl& m = *impl_;
     m.need_grains();
-    const grainreel::Frame now = m.running->frame();
+    const grainreel::State now = m.running->frame();
     RoomForGrains room(m.inner, m.plan, now);
-    std::vector<grainreel::NewGrain> inner;
+    std::vector<grainreel::ComingGrain> inner;
     for (const NewGrain& grain : grains) inner.push_back(room.take(grain));
     return told([&] { return m.running->insert(inner); });
 }

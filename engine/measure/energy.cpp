@@ -48,7 +48,7 @@ double total_energy(const Surroundings& around, const Grains& grains, const Step
 
 namespace {
 
-std::vector<BodyPose> poses_of_meshes(const Surroundings& around, const Pose& pose) {
+std::vector<BodyPose> poses_of_meshes(const Surroundings& around, const DrivePose& pose) {
     std::vector<BodyPose> poses;
     for (const MeshWall& mesh : around.meshes) poses.push_back(mesh.body.at(pose));
     return poses;
@@ -56,7 +56,7 @@ std::vector<BodyPose> poses_of_meshes(const Surroundings& around, const Pose& po
 
 // Velocity (m/s) of the wall at the contact. `pose` is the pose of the drive.
 Vec3 velocity_of_wall(const Surroundings& around, const std::vector<BodyPose>& meshes, const ContactView& c,
-                      const Pose& pose) {
+                      const DrivePose& pose) {
     const auto wall = static_cast<std::size_t>(-1 - c.second);
     const std::size_t faces = around.faces.size();
     return wall < faces ? velocity_of(around.faces[wall], pose, c.point)
@@ -65,7 +65,7 @@ Vec3 velocity_of_wall(const Surroundings& around, const std::vector<BodyPose>& m
 
 // Spin (rad/s) of the wall of a contact. `pose` is the pose of the drive.
 Vec3 spin_of_wall(const Surroundings& around, const std::vector<BodyPose>& meshes, const ContactView& c,
-                  const Pose& pose) {
+                  const DrivePose& pose) {
     const auto wall = static_cast<std::size_t>(-1 - c.second);
     const std::size_t faces = around.faces.size();
     if (wall >= faces) return meshes[wall - faces].spin;
@@ -101,7 +101,7 @@ void EnergyBalance::look(std::int64_t step) {
     terms_.gravitational = gravitational_energy(grains_, around_.gravity);
     terms_.stored = 0;
     powers_ = {};
-    const Pose pose = around_.motion.at(step);
+    const DrivePose pose = around_.motion.at(step);
     const std::vector<BodyPose> meshes = poses_of_meshes(around_, pose);
     if (!shown_.empty()) shown_.clear();
     std::swap(before_, contacts_);

@@ -114,7 +114,7 @@ HealthLimits health_limits(const Scene& scene, const Plan& plan) {
 std::int64_t steps_to_next_look(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                                 std::int64_t step) {
     const std::int64_t regular = kStepsPerLook - step % kStepsPerLook;
-    const Pose pose = around.motion.at(step);
+    const DrivePose pose = around.motion.at(step);
     Box box = velocities(grains);
     for (const Face& face : around.faces) box.take(face.velocity_at(pose));
     for (const MeshWall& mesh : around.meshes) box.take(mesh.body.velocity_at(pose));
@@ -166,7 +166,7 @@ void check_state(const HealthLimits& limits, const Surroundings& around, const G
 
 void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                  const ShowContacts& show, std::int64_t step) {
-    const Pose pose = around.motion.at(step);
+    const DrivePose pose = around.motion.at(step);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         if (!finite(grains, i)) {
             throw RunError(fmt::format("{}: {} is no longer a number; take a smaller run.step",

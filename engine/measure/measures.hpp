@@ -99,7 +99,7 @@ inline void add_no_values(std::vector<double>& row, std::size_t columns) {
 // Fields are values of an observer place by place, on grids that stay the same for the whole run.
 
 // One axis of a grid. Its coordinate may be a place, a phase of the drive or a species.
-struct FieldAxis {
+struct MeasuredAxis {
     std::string name;        // "z", unique within an observer
     std::string unit;        // "m", "turns", "1"
     std::string about;       // in words: "height above the floor"
@@ -116,7 +116,7 @@ struct FieldInfo {
 
 // Everything that one observer gives.
 struct FieldSet {
-    std::vector<FieldAxis> axes;
+    std::vector<MeasuredAxis> axes;
     std::vector<FieldInfo> fields;
 };
 

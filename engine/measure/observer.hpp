@@ -49,7 +49,7 @@ struct ObservedState {
     std::int64_t step;
     Vec3 gravity;            // m/s2
     double period;           // m, period of x; 0 if x is not periodic
-    Pose pose;               // pose of what the drive moves
+    DrivePose pose;          // pose of what the drive moves
     double start_energy;     // J, of all grains and contacts when the drive started
     const Traffic& traffic;  // grains that came and left since the drive started
     std::span<const Face> faces = {};

@@ -16,7 +16,7 @@ namespace grainreel {
 // spring it grows as the root of the mass, for Hertz' as (m / k)^(2/5), where k grows as the root of the
 // radius (hertz_contact_time).
 double ContactKind::mean_contact_time() const {
-    const Touching smallest = extremes(first, other()).front(), mean = mean_touching(first, other());
+    const PairSizes smallest = extremes(first, other()).front(), mean = mean_touching(first, other());
     const double heavier = mean.effective_mass / smallest.effective_mass;
     if (pair->modulus == 0) return pair->contact_time * std::sqrt(heavier);
     return pair->contact_time *
@@ -71,7 +71,7 @@ std::vector<ContactKind> contact_kinds(const Scene& scene, const Plan& plan) {
 RestitutionRange restitution_range(const Plan& plan, const PairPlan& pair, const Species& a,
                                    const Species* b) {
     RestitutionRange range;
-    for (const Touching& t : extremes(a, b)) {
+    for (const PairSizes& t : extremes(a, b)) {
         const double e = pair.restitution_of(t.effective_mass, plan.impact_speed);
         range = {std::min(range.low, e), std::max(range.high, e)};
     }

@@ -244,7 +244,7 @@ Plan make_plan(const Scene& scene, const StartFacts& file) {
     plan.wall_speed = fastest_own_speed(scene);
     plan.moving_walls = (scene.drive.present && scene.drive.largest_amplitude() > 0) ||
                         std::any_of(scene.walls.begin(), scene.walls.end(),
-                                    [](const FreeWall& wall) { return !wall.velocity.isZero(0); }) ||
+                                    [](const ScenePlane& wall) { return !wall.velocity.isZero(0); }) ||
                         plan.wall_speed > 0;
     plan.capacity = scene.grains();
 

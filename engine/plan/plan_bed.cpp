@@ -45,7 +45,7 @@ double closing_speed(const Scene& scene) {
         fastest = std::max(fastest, velocity.norm());
     };
     for (const ListedGrain& grain : scene.start.grains) take(grain.velocity);
-    for (const FreeWall& wall : scene.walls) take(wall.velocity);
+    for (const ScenePlane& wall : scene.walls) take(wall.velocity);
     const bool no_walls =
         scene.walls.empty() && scene.meshes.empty() && scene.container.shape == Container::Shape::none;
     return std::max(no_walls ? 0.0 : fastest, (high - low).norm());

@@ -57,7 +57,7 @@ class Demands {
     Stiffness chosen_;
 };
 
-void demand_stiffness(const Scene& scene, const BedPlan& bed, const PairContact& contact, const Touching& t,
+void demand_stiffness(const Scene& scene, const BedPlan& bed, const PairContact& contact, const PairSizes& t,
                       Demands& demands) {
     const double eps = scene.run.overlap;
     demands.add(t.effective_mass * math::square(bed.impact_speed / (eps * t.diameter)), "impact");
@@ -68,7 +68,7 @@ void demand_stiffness(const Scene& scene, const BedPlan& bed, const PairContact&
 }
 
 // Makes the same demands of Hertz' effective modulus E*.
-void demand_modulus(const Scene& scene, const BedPlan& bed, const Touching& t, Demands& demands) {
+void demand_modulus(const Scene& scene, const BedPlan& bed, const PairSizes& t, Demands& demands) {
     const double allowed = scene.run.overlap * t.diameter, m = t.effective_mass, v = bed.impact_speed;
     const double to_modulus = 0.75 / std::sqrt(t.effective_radius);  // turns k into E*
     demands.add(to_modulus * 1.25 * m * v * v / math::pow(allowed, 2.5), "impact");
@@ -84,7 +84,7 @@ Stiffness choose_stiffness(const Scene& scene, const BedPlan& bed, const PairCon
     if (contact.stiffness) return {*contact.stiffness, "the scene"};
     const bool hertz = contact.normal == NormalLaw::hertz;
     Demands demands;
-    for (const Touching& t : extremes(a, b))
+    for (const PairSizes& t : extremes(a, b))
         hertz ? demand_modulus(scene, bed, t, demands) : demand_stiffness(scene, bed, contact, t, demands);
     if (demands.chosen().value > 0) return demands.chosen();
     throw UserError(
@@ -111,7 +111,7 @@ void plan_damping(const Scene& scene, PairPlan& pair, const PairContact& contact
     } else {
         pair.normal_damping = *contact.normal_damping;
         double critical = std::numeric_limits<double>::infinity();
-        for (const Touching& t : extremes(a, b))
+        for (const PairSizes& t : extremes(a, b))
             critical = std::min(critical, 2 * std::sqrt(pair.loading_stiffness / t.effective_mass));
         if (pair.normal_damping >= critical && contact.attraction)
             throw UserError(fmt::format(
@@ -142,7 +142,7 @@ void plan_hardening(const BedPlan& bed, PairPlan& pair, const PairContact& conta
     const double e = contact.restitution;
     pair.hardening = natural * (1 / (e * e) - 1) / *contact.restitution_speed;
     double slowest = natural;
-    for (const Touching& t : extremes(a, b))
+    for (const PairSizes& t : extremes(a, b))
         slowest = std::min(slowest, std::sqrt(pair.loading_stiffness / t.effective_mass));
     pair.restitution = std::sqrt(slowest / (slowest + pair.hardening * bed.impact_speed));
 }
@@ -175,7 +175,7 @@ void plan_walton_braun(const BedPlan& bed, PairPlan& pair, const PairContact& co
 }
 
 // A free impact takes longer the slower it is, so the fastest (v*) limits the step.
-void plan_hertz(const BedPlan& bed, PairPlan& pair, const PairContact& contact, const Touching& smallest) {
+void plan_hertz(const BedPlan& bed, PairPlan& pair, const PairContact& contact, const PairSizes& smallest) {
     pair.modulus = pair.loading_stiffness;
     const double k = 4.0 / 3 * pair.modulus * std::sqrt(smallest.effective_radius);
     const double speed = bed.impact_speed > 0 ? bed.impact_speed
@@ -197,7 +197,7 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
     pair.stiffness_reason = stiffness.reason;
     pair.restitution = contact.restitution;
     pair.attraction = contact.attraction;
-    const Touching smallest = extremes(a, b).front();
+    const PairSizes smallest = extremes(a, b).front();
     pair.effective_mass = smallest.effective_mass;
     pair.allowed_overlap = scene.run.overlap * smallest.diameter;
     switch (contact.normal) {
@@ -223,9 +223,9 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
 }
 
 double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair,
-                        const std::vector<Touching>& sizes, double landing) {
+                        const std::vector<PairSizes>& sizes, double landing) {
     double largest = 0;
-    for (const Touching& t : sizes) {
+    for (const PairSizes& t : sizes) {
         const double load = std::max(t.effective_mass, landing / 3);
         double impact = bed.impact_speed * std::sqrt(load / pair.loading_stiffness) / t.diameter;
         double weight = static_load(bed, t.diameter) / pair.loading_stiffness;
@@ -282,8 +282,8 @@ double PairPlan::restitution_of(double mass, double speed) const {
     return restitution;  // Hertz and a constant K2 have the same at any mass and speed
 }
 
-std::vector<Touching> extremes(const Species& a, const Species* b) {
-    std::vector<Touching> all;
+std::vector<PairSizes> extremes(const Species& a, const Species* b) {
+    std::vector<PairSizes> all;
     for (const double first : {a.diameter.smallest, a.diameter.mean, a.diameter.largest}) {
         const double mass = mass_of(a, first);
         if (b == nullptr) {
@@ -297,8 +297,8 @@ std::vector<Touching> extremes(const Species& a, const Species* b) {
     return all;
 }
 
-Touching mean_touching(const Species& a, const Species* b) {
-    const std::vector<Touching> sizes = extremes(a, b);
+PairSizes mean_touching(const Species& a, const Species* b) {
+    const std::vector<PairSizes> sizes = extremes(a, b);
     return sizes[sizes.size() / 2];
 }
 

@@ -33,16 +33,16 @@ double mass_of(const Species& species, double diameter);  // kg
 double restitution_at(const std::vector<RestitutionPoint>& table, double speed);
 
 // Two grains that may touch, or a grain and a wall (whose mass is infinite). Sizes in m, masses in kg.
-struct Touching {
+struct PairSizes {
     double diameter;  // diameter of the smaller one
     double distance;  // between centres, or to the wall
     double effective_mass;
     double effective_radius;
 };
-std::vector<Touching> extremes(const Species& a, const Species* b);  // smallest, mean and largest grains of
-                                                                     // both, the smallest first; b: nullptr
-                                                                     // for a wall
-Touching mean_touching(const Species& a, const Species* b);          // both of mean size
+std::vector<PairSizes> extremes(const Species& a, const Species* b);  // smallest, mean and largest grains of
+                                                                      // both, the smallest first; b: nullptr
+                                                                      // for a wall
+PairSizes mean_touching(const Species& a, const Species* b);          // both of mean size
 double mean_effective_mass(const Species& a, const Species* b);
 
 // Plans stiffness, damping and times of one kind of contact.
@@ -54,7 +54,7 @@ PairPlan plan_pair(const Scene& scene, const BedPlan& bed, const PairContact& co
 // but a heavy grain that lands on three others drives these deeper into each other and into the wall. (In
 // scenes/wedge_mixing.toml this expects 3.2 %, and 3.3 % were seen within 3 s.)
 double expected_overlap(const Scene& scene, const BedPlan& bed, const PairPlan& pair,
-                        const std::vector<Touching>& sizes, double landing);
+                        const std::vector<PairSizes>& sizes, double landing);
 
 // Whether impacts of this restitution lose so little that the gain of the contact corrections would count. In
 // an elastic impact the corrections gain (w dt)^4 / 20 of its energy, w^2 = K1 / m_eff, with w dt = pi / 12

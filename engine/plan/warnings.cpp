@@ -269,7 +269,7 @@ void warn_of_overlaps(const Plan& plan, Warnings& warnings) {
 // The lowest speed (m/s), among all sizes, at which the grains of a kind of contact pass through each other.
 double tunnelling_speed(const ContactKind& kind) {
     double slowest = std::numeric_limits<double>::infinity();
-    for (const Touching& t : extremes(kind.first, kind.other()))
+    for (const PairSizes& t : extremes(kind.first, kind.other()))
         slowest = std::min(slowest, t.distance * std::sqrt(kind.pair->loading_stiffness / t.effective_mass));
     return slowest;
 }

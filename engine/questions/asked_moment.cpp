@@ -19,7 +19,7 @@ namespace {
 
 // Acceleration (m/s2) of each grain of `now`, from its places now and a step later: x' = x + dt v + dt^2 a
 // / 2 with velocity Verlet, x' = x + dt (v + dt a) with leapfrog. Empty with other integrators.
-std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Frame& later, double step) {
+std::vector<Vec3> accelerations(const Scene& scene, const State& now, const State& later, double step) {
     const Integrator integrator = scene.run.integrator;
     if (integrator != Integrator::velocity_verlet && integrator != Integrator::leapfrog) return {};
     const double share = integrator == Integrator::velocity_verlet ? 2 : 1;
@@ -41,7 +41,7 @@ std::vector<Vec3> accelerations(const Scene& scene, const Frame& now, const Fram
 // Finds a kept moment by its frame number. An imported file of frames has no film, so its own frames are
 // counted.
 AskedMoment kept_frame(const StoredRun& run, std::int64_t frame, const std::string& name) {
-    const std::vector<Frame>& moments = run.moments();
+    const std::vector<State>& moments = run.moments();
     const auto count = static_cast<std::int64_t>(moments.size());
     if (frame < 0 || frame >= count)
         throw UserError(
@@ -52,7 +52,7 @@ AskedMoment kept_frame(const StoredRun& run, std::int64_t frame, const std::stri
 
 // The end of a run is in its last checkpoint; it need not be among the kept moments.
 AskedMoment last_moment(const StoredRun& run) {
-    const std::vector<Frame>& moments = run.moments();
+    const std::vector<State>& moments = run.moments();
     const std::vector<KeptCheckpoint>& kept = run.checkpoints();
     const std::size_t back = moments.size() - 1;
     if (!kept.empty() && kept.back().step > moments[back].step)
@@ -71,13 +71,13 @@ std::int64_t step_of_frame(const StoredRun& run, const MomentRequest& request) {
                         "TIME, or run the scene again with its film and output.film_moments = true",
                         run.path().string(), kFilmMoments));
     const std::int64_t frame = *request.frame;
-    const FrameArchive* const pictures = run.kept().film();
+    const StateArchive* const pictures = run.kept().film();
     if (pictures == nullptr) throw UserError(run.kept().faults_of_film().front().what);
     const std::vector<std::string> damage = pictures->damage();
     std::int64_t shown = 0;
     for (std::size_t k = 0; k < pictures->moments().size(); ++k) {
         if (pictures->place(k) != k) break;  // from the first damaged picture on the numbers are unknown
-        const Frame& moment = pictures->moments()[k];
+        const State& moment = pictures->moments()[k];
         shown += 1 + (request.held ? request.held(moment.time) : 0);
         if (frame < shown && frame >= 0) return moment.step;
     }
@@ -87,7 +87,7 @@ std::int64_t step_of_frame(const StoredRun& run, const MomentRequest& request) {
 }
 
 // The snapshot of a restored run, without accelerations.
-Snapshot snapshot_of(const Simulation& simulation, const StoredRun& run) {
+Snapshot snapshot_of(const SimulatedBed& simulation, const StoredRun& run) {
     Snapshot snapshot{run.known_scene(), simulation.frame(), true, run.first()};
     snapshot.touches = touches_of(simulation);
     snapshot.measured =
@@ -127,7 +127,7 @@ void check_can_bring_back(const StoredRun& run, const AskedMoment& moment) {
 
 AskedMoment find_moment(const StoredRun& run, const MomentRequest& request) {
     const Clock& clock = run.clock();
-    const std::vector<Frame>& moments = run.moments();
+    const std::vector<State>& moments = run.moments();
     const auto named = [&](double time, const char* option) {
         const double to = std::max(run.to(), clock.step > 0 ? clock.time(run.last_step()) : run.to()),
                      hair = 1e-9 + 1e-9 * std::abs(time);
@@ -161,11 +161,10 @@ bool has_checkpoint(const StoredRun& run, const AskedMoment& moment) {
 
 Snapshot kept_snapshot(const StoredRun& run, std::size_t index, bool with_ways) {
     Snapshot snapshot{run.known_scene(), run.grains(index), run.has_contacts_of(index), run.first()};
-    if (std::optional<std::vector<Touch>> touches = run.touches(index))
-        snapshot.touches = std::move(*touches);
+    if (std::optional<std::vector<Link>> touches = run.touches(index)) snapshot.touches = std::move(*touches);
     if (with_ways) add_kept_ways(run, snapshot);
     snapshot.measured = run.measured_near(index);
-    const FrameSupply supply = run.supply();
+    const StateSupply supply = run.supply();
     snapshot.spins = supply.spins;
     snapshot.velocities = supply.velocities;
     if (!supply.velocities)
@@ -176,7 +175,7 @@ Snapshot kept_snapshot(const StoredRun& run, std::size_t index, bool with_ways) 
 
 Snapshot brought_back_snapshot(StoredRun& run, const AskedMoment& moment, const ReplayWatcher& watcher) {
     check_can_bring_back(run, moment);
-    Simulation& simulation = run.brought_back(moment.step, watcher);
+    SimulatedBed& simulation = run.brought_back(moment.step, watcher);
     Snapshot snapshot = snapshot_of(simulation, run);
     simulation.advance(moment.step + 1);
     snapshot.forces->acceleration =
@@ -198,7 +197,7 @@ Snapshot brought_back_with_ways(StoredRun& run, const AskedMoment& moment, const
         throw UserError(fmt::format(
             "ways over a period need the moment {} before {:.6g} s, and the run does not reach back so far",
             periods == 1 ? "one period" : fmt::format("{} periods", periods), moment.time));
-    const Frame then = run.brought_back(before.step, watcher).frame();
+    const State then = run.brought_back(before.step, watcher).frame();
     Snapshot snapshot = brought_back_snapshot(run, moment, watcher);
     snapshot.displacement =
         displacement_since(then, snapshot.frame, periods, period_of_depth(scene.container));
@@ -227,7 +226,7 @@ void see_periods(StoredRun& run, const AskedMoment& moment, double periods, bool
     const auto step_of = [&](std::int64_t k) {
         return clock.step_at(end - static_cast<double>(count - 1 - k) / kMomentsAPeriod);
     };
-    Simulation& simulation = run.brought_back(step_of(0), watcher);
+    SimulatedBed& simulation = run.brought_back(step_of(0), watcher);
     for (std::int64_t k = 0; k < count; ++k) {
         simulation.advance(step_of(k));
         see(snapshot_of(simulation, run));
@@ -258,7 +257,7 @@ void see_every(StoredRun& run, double interval, const ReplayWatcher& watcher,
     begin.step = step_of(0);
     begin.time = clock.time(begin.step);
     check_can_bring_back(run, begin);
-    Simulation& simulation = run.brought_back(begin.step, watcher);
+    SimulatedBed& simulation = run.brought_back(begin.step, watcher);
     for (double k = 0; k < count; ++k) {
         simulation.advance(step_of(k));
         see(snapshot_of(simulation, run));

@@ -76,7 +76,7 @@ LargeArray<Place> places_of_all(const Snapshot& s) {
 
 // Depth (m) below the surface, whose heights are those of the observer `bed_surface`.
 std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
-    SurfaceFrame frame = surface_frame(s.scene);
+    SurfaceAxes frame = surface_frame(s.scene);
     if (!(frame.right > frame.left) || s.frame.size() == 0)
         return std::vector<double>(grains.size(), no_value);
     const Vec3 offset = container_offset(s.scene, s.frame);

@@ -21,7 +21,7 @@ namespace {
 template <class See>
 std::vector<double> over_touches(const Snapshot& s, const GrainList& grains, const See& value_of) {
     std::vector<double> sums(s.frame.size(), 0), values;
-    for (const Touch& touch : s.touches)
+    for (const Link& touch : s.touches)
         for (const std::int32_t id : {touch.first, touch.second})
             if (id >= 0)
                 if (const auto grain = s.place_of(id)) sums[*grain] += value_of(touch);
@@ -30,16 +30,16 @@ std::vector<double> over_touches(const Snapshot& s, const GrainList& grains, con
 }
 
 std::vector<double> contacts(const Snapshot& s, const GrainList& grains) {
-    return over_touches(s, grains, [](const Touch&) { return 1.0; });
+    return over_touches(s, grains, [](const Link&) { return 1.0; });
 }
 
 std::vector<double> contact_force(const Snapshot& s, const GrainList& grains) {
-    return over_touches(s, grains, [](const Touch& touch) { return touch.force; });
+    return over_touches(s, grains, [](const Link& touch) { return touch.force; });
 }
 
 // One side of a contact, at a moment that was brought back.
 struct ContactSide {
-    const ContactForce& contact;
+    const DetailedContact& contact;
     bool is_first;
     Vec3 force() const { return is_first ? contact.on_first() : contact.on_second(); }
     const Vec3& torque() const { return is_first ? contact.torque_on_first : contact.torque_on_second; }
@@ -50,7 +50,7 @@ struct ContactSide {
 template <class Sum, class Add>
 std::vector<Sum> over_contacts(const Snapshot& s, const Sum& zero, const Add& add) {
     std::vector<Sum> sums(s.frame.size(), zero);
-    for (const ContactForce& one : s.forces->contacts)
+    for (const DetailedContact& one : s.forces->contacts)
         for (const bool is_first : {true, false}) {
             const std::int32_t id = is_first ? one.first : one.second;
             if (id < 0) continue;
@@ -218,7 +218,7 @@ std::vector<double> values_of_touches(const Snapshot& s, int number, const Grain
         if (one < 0 || !is_meant(s, number, other)) return;
         if (const auto place = s.place_of(one)) found[*place] = 1;
     };
-    for (const Touch& touch : s.touches) {
+    for (const Link& touch : s.touches) {
         note(touch.first, touch.second);
         note(touch.second, touch.first);
     }

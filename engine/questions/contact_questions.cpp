@@ -26,7 +26,7 @@ std::string text_of_force(double force) {
 }
 
 // The point (m) where the grain's surface meets its partner's.
-Vec3 point_on(const Snapshot& s, std::size_t grain, const ContactForce& contact, bool is_first) {
+Vec3 point_on(const Snapshot& s, std::size_t grain, const DetailedContact& contact, bool is_first) {
     const double reach = s.frame.radius[grain] - 0.5 * contact.overlap;
     return s.frame.position[grain] + (is_first ? reach : -reach) * contact.normal;
 }
@@ -53,7 +53,7 @@ AnswerForces forces_on_grain(const Snapshot& s, std::int64_t id) {
             name);
         return answer;
     }
-    for (const ContactForce& one : s.forces->contacts) {
+    for (const DetailedContact& one : s.forces->contacts) {
         if ((one.first != id && one.second != id) || !one.pushes()) continue;
         const bool is_first = one.first == id;
         const Vec3 force = is_first ? one.on_first() : one.on_second();
@@ -70,7 +70,7 @@ AnswerForces forces_on_grain(const Snapshot& s, std::int64_t id) {
 AnswerForces forces_on_wall(const Snapshot& s, const std::string& name) {
     AnswerForces answer;
     const std::int32_t wall = wall_number(s, name);
-    for (const ContactForce* one : pushes_on_wall(s, wall)) {
+    for (const DetailedContact* one : pushes_on_wall(s, wall)) {
         const std::optional<std::size_t> grain = s.place_of(one->first);
         if (!grain) continue;
         answer.grains.push_back(one->first);
@@ -89,7 +89,7 @@ AnswerForces forces_on_wall(const Snapshot& s, const std::string& name) {
 
 namespace {
 
-using Forces = std::vector<const ContactForce*>;
+using Forces = std::vector<const DetailedContact*>;
 
 // The present place (m) of the point about which the moment of force on a wall is taken.
 Vec3 point_of_moment(const Snapshot& s, std::int32_t wall) {
@@ -103,7 +103,7 @@ AnswerTable sum_table(const Snapshot& s, std::int32_t wall, const Forces& on_wal
     Vec3 force(0, 0, 0), moment(0, 0, 0);
     double normal = 0;
     const Vec3 point = point_of_moment(s, wall);
-    for (const ContactForce* one : on_wall) {
+    for (const DetailedContact* one : on_wall) {
         force += one->on_second();
         moment += (one->point - point).cross(one->on_second());
         normal += one->normal_force;
@@ -155,10 +155,10 @@ Vec3 centre_of_turn(const BodyPose& pose) {
 
 AnswerTable power_table(const BodyPose& pose, const Forces& on_wall) {
     double power = 0;
-    for (const ContactForce* one : on_wall) power -= one->on_second().dot(pose.velocity_at(one->point));
+    for (const DetailedContact* one : on_wall) power -= one->on_second().dot(pose.velocity_at(one->point));
     const Vec3 axis = pose.spin.norm() > 0 ? Vec3(pose.spin.normalized()) : Vec3(0, 0, 0);
     double torque = 0;
-    for (const ContactForce* one : on_wall)
+    for (const DetailedContact* one : on_wall)
         torque += axis.dot((one->point - centre_of_turn(pose)).cross(one->on_second()));
     return {
         "motion",
@@ -185,7 +185,7 @@ AnswerTable height_table(const Snapshot& s, std::int32_t wall, const Forces& on_
     const double width = s.bin();
     const bool stands = !mesh_of_wall(s.scene, wall) && !s.scene.container.turn;
     std::map<std::int64_t, std::pair<std::int64_t, double>> bins;
-    for (const ContactForce* one : on_wall) {
+    for (const DetailedContact* one : on_wall) {
         auto& [count, force] =
             bins[std::llround(std::floor((one->point - floor_offset(s.scene, s.frame)).z() / width))];
         ++count;
@@ -221,7 +221,7 @@ AnswerTable touching_table(const Snapshot& s, std::int32_t wall, Forces on_wall,
     if (mesh)
         table.columns.push_back({"triangle", Dimension::number, "of the mesh, as trajectory.nc has them"});
     on_wall.resize(std::min(on_wall.size(), most));
-    for (const ContactForce* one : on_wall) {
+    for (const DetailedContact* one : on_wall) {
         table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first),
                               (one->point - floor_offset(s.scene, s.frame)).z(), one->overlap,
                               one->normal_force, one->tangential.norm(), one->slides() ? "yes" : "no"});
@@ -241,7 +241,7 @@ AnswerTable species_table(const Snapshot& s, const Forces& on_wall) {
     for (std::size_t k = 0; k < s.scene.species.size(); ++k) {
         std::int64_t count = 0;
         double force = 0;
-        for (const ContactForce* one : on_wall) {
+        for (const DetailedContact* one : on_wall) {
             const auto place = s.place_of(one->first);
             if (!place || static_cast<std::size_t>(s.frame.species[*place]) != k) continue;
             ++count;
@@ -275,9 +275,9 @@ std::string overlap_limit_words(const Snapshot& s) {
     return fmt::format("run.overlap allows {:.4g} of the smaller radius", overlap_limit(s.scene));
 }
 
-std::vector<const ContactForce*> pushes_on_wall(const Snapshot& s, std::int32_t wall) {
-    std::vector<const ContactForce*> on_wall;
-    for (const ContactForce& one : s.forces->contacts)
+std::vector<const DetailedContact*> pushes_on_wall(const Snapshot& s, std::int32_t wall) {
+    std::vector<const DetailedContact*> on_wall;
+    for (const DetailedContact& one : s.forces->contacts)
         if (one.second == wall && one.pushes()) on_wall.push_back(&one);
     return on_wall;
 }
@@ -302,10 +302,10 @@ namespace {
 
 // The table of how many pairs touch, how far they overlap, and what is allowed.
 AnswerTable touching_pairs_table(const Snapshot& s) {
-    const std::vector<ContactForce>& all = s.forces->contacts;
+    const std::vector<DetailedContact>& all = s.forces->contacts;
     double most = 0, sum = 0;
     std::int64_t pushing = 0;
-    for (const ContactForce& one : all) {
+    for (const DetailedContact& one : all) {
         const double share = one.overlap / one.smaller_radius;
         most = std::max(most, share), sum += share;
         pushing += one.normal_force > 0;
@@ -332,7 +332,7 @@ std::string overlap_verdict(const Snapshot& s) {
     const double limit = overlap_limit(s.scene);
     double most = 0;
     std::size_t beyond = 0;
-    for (const ContactForce& one : s.forces->contacts) {
+    for (const DetailedContact& one : s.forces->contacts) {
         const double share = one.overlap / one.smaller_radius;
         most = std::max(most, share), beyond += share > limit;
     }
@@ -347,7 +347,7 @@ std::string overlap_verdict(const Snapshot& s) {
 
 Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
     Forces all;
-    for (const ContactForce& one : s.forces->contacts) all.push_back(&one);
+    for (const DetailedContact& one : s.forces->contacts) all.push_back(&one);
     std::sort(all.begin(), all.end(), [](const auto* a, const auto* b) {
         if (a->overlap != b->overlap) return a->overlap > b->overlap;
         return a->first != b->first ? a->first < b->first : a->second < b->second;
@@ -366,7 +366,7 @@ Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {
         {}};
     table.most_of = "overlap";
     all.resize(std::min(all.size(), most));
-    for (const ContactForce* one : all) {
+    for (const DetailedContact* one : all) {
         AnswerCell second;
         if (one->second >= 0) second = static_cast<std::int64_t>(one->second);
         table.rows.push_back({static_cast<std::int64_t>(one->first), name_of_body(s, one->first), second,

@@ -41,6 +41,6 @@ double overlap_limit(const Scene& scene);
 // "run.overlap allows 0.02 of the smaller radius".
 std::string overlap_limit_words(const Snapshot& snapshot);
 // The contacts of a wall that push or pull.
-std::vector<const ContactForce*> pushes_on_wall(const Snapshot& snapshot, std::int32_t wall);
+std::vector<const DetailedContact*> pushes_on_wall(const Snapshot& snapshot, std::int32_t wall);
 
 }  // namespace grainreel

@@ -43,7 +43,7 @@ AnswerTable contacts_table(const Snapshot& s, std::size_t grain) {
                        {"normal_force", Dimension::force, ""},
                        {"partner_height", Dimension::length, "above the floor"}},
                       {}};
-    for (const Touch& touch : s.touches) {
+    for (const Link& touch : s.touches) {
         if (touch.first != id && touch.second != id) continue;
         const std::int32_t partner = touch.first == id ? touch.second : touch.first;
         AnswerCell number, height;
@@ -71,7 +71,7 @@ AnswerTable pushes_table(const Snapshot& s, std::size_t grain) {
                        {"torque", Dimension::moment, "magnitude, on this grain"},
                        {"partner_height", Dimension::length, "above the floor"}},
                       {}};
-    for (const ContactForce& one : s.forces->contacts) {
+    for (const DetailedContact& one : s.forces->contacts) {
         if ((one.first != id && one.second != id) || !one.pushes()) continue;
         const bool is_first = one.first == id;
         const std::int32_t partner = is_first ? one.second : one.first;
@@ -145,7 +145,7 @@ AnswerTable neighbours_table(const Snapshot& s, std::size_t grain) {
 
 Vec3 contact_force_on(const Snapshot& s, std::int32_t id) {
     Vec3 sum(0, 0, 0);
-    for (const ContactForce& one : s.forces->contacts) {
+    for (const DetailedContact& one : s.forces->contacts) {
         if (one.first == id) sum += one.on_first();
         if (one.second == id) sum += one.on_second();
     }
@@ -154,7 +154,7 @@ Vec3 contact_force_on(const Snapshot& s, std::int32_t id) {
 
 Vec3 contact_torque_on(const Snapshot& s, std::int32_t id) {
     Vec3 sum(0, 0, 0);
-    for (const ContactForce& one : s.forces->contacts) {
+    for (const DetailedContact& one : s.forces->contacts) {
         if (one.first == id) sum += one.torque_on_first;
         if (one.second == id) sum += one.torque_on_second;
     }

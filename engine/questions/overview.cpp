@@ -136,7 +136,7 @@ AnswerTable extremes_table(const Snapshot& s) {
 std::vector<AnswerCell> kept_wall_row(const Snapshot& s, std::int32_t wall) {
     std::int64_t count = 0;
     double normal = 0;
-    for (const Touch& touch : s.touches)
+    for (const Link& touch : s.touches)
         if (touch.second == wall) ++count, normal += touch.force;
     return {name_of_body(s, wall), count, {}, {}, {}, normal};
 }
@@ -165,8 +165,8 @@ AnswerTable walls_table(const Snapshot& s) {
         }
         Vec3 force(0, 0, 0);
         double normal = 0;
-        const std::vector<const ContactForce*> pushes = pushes_on_wall(s, wall);
-        for (const ContactForce* one : pushes) force += one->on_second(), normal += one->normal_force;
+        const std::vector<const DetailedContact*> pushes = pushes_on_wall(s, wall);
+        for (const DetailedContact* one : pushes) force += one->on_second(), normal += one->normal_force;
         table.rows.push_back({name_of_body(s, wall), static_cast<std::int64_t>(pushes.size()), force.x(),
                               force.y(), force.z(), normal});
     }

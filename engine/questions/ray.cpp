@@ -60,7 +60,7 @@ bool is_kept(const Vec3& point, const std::vector<KeptHalf>& kept) {
 
 }  // namespace
 
-std::vector<GrainOnRay> grains_on(const Ray& ray, const Frame& frame, const std::vector<KeptHalf>& kept) {
+std::vector<GrainOnRay> grains_on(const Ray& ray, const State& frame, const std::vector<KeptHalf>& kept) {
     std::vector<GrainOnRay> found;
     for (std::size_t i = 0; i < frame.size(); ++i) {
         Stretch stretch;
@@ -79,18 +79,18 @@ std::vector<GrainOnRay> grains_on(const Ray& ray, const Frame& frame, const std:
 namespace {
 
 // Finds the wall in the frame of the turning container; lengths along the ray stay the same.
-std::optional<WallOnRay> wall_behind_turned(const Ray& ray, const Scene& scene, const Frame& frame) {
+std::optional<WallOnRay> wall_behind_turned(const Ray& ray, const Scene& scene, const State& frame) {
     const BodyPose& pose = frame.container();
     Scene at_rest = scene;
     at_rest.container.turn.reset();
-    Frame still;
+    State still;
     const Ray turned{pose.at_rest(ray.origin), pose.rotation.conjugate() * ray.direction};
     return wall_behind(turned, at_rest, still);
 }
 
 }  // namespace
 
-std::optional<WallOnRay> wall_behind(const Ray& ray, const Scene& scene, const Frame& frame) {
+std::optional<WallOnRay> wall_behind(const Ray& ray, const Scene& scene, const State& frame) {
     if (scene.container.shape == Container::Shape::none) return std::nullopt;
     if (scene.container.turn) return wall_behind_turned(ray, scene, frame);
     Stretch inside;
@@ -111,7 +111,7 @@ std::optional<WallOnRay> wall_behind(const Ray& ray, const Scene& scene, const F
     return WallOnRay{last, inside.to};
 }
 
-std::vector<MeshOnRay> meshes_on(const Ray& ray, const Scene& scene, const Frame& frame,
+std::vector<MeshOnRay> meshes_on(const Ray& ray, const Scene& scene, const State& frame,
                                  const std::vector<KeptHalf>& kept) {
     std::vector<MeshOnRay> found;
     const double length = ray.direction.norm();
@@ -131,7 +131,7 @@ std::vector<MeshOnRay> meshes_on(const Ray& ray, const Scene& scene, const Frame
 
 namespace {
 
-AnswerTable table_of(const Snapshot& s, const Frame& shown, const Ray& ray, const AlongRay& along,
+AnswerTable table_of(const Snapshot& s, const State& shown, const Ray& ray, const AlongRay& along,
                      bool through) {
     AnswerTable table{"pixel",
                       "At that pixel, the nearest first",
@@ -173,7 +173,7 @@ AnswerTable table_of(const Snapshot& s, const Frame& shown, const Ray& ray, cons
 
 }  // namespace
 
-Answer along_ray_answer(const Snapshot& snapshot, const Frame& shown, const Ray& ray, const AlongRay& along,
+Answer along_ray_answer(const Snapshot& snapshot, const State& shown, const Ray& ray, const AlongRay& along,
                         bool through) {
     Answer answer{{table_of(snapshot, shown, ray, along, through)}, {}};
     if (answer.tables[0].rows.empty()) answer.notes.emplace_back("nothing is at that pixel");

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/questions/answer.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -34,7 +34,7 @@ struct GrainOnRay {
 
 // The grains that the ray meets ahead of its origin, the nearest first. Only the part of a grain that lies
 // in all kept halves counts, because the rest is not drawn.
-std::vector<GrainOnRay> grains_on(const Ray& ray, const Frame& frame, const std::vector<KeptHalf>& kept);
+std::vector<GrainOnRay> grains_on(const Ray& ray, const State& frame, const std::vector<KeptHalf>& kept);
 
 struct WallOnRay {
     std::string name;
@@ -42,7 +42,7 @@ struct WallOnRay {
 };
 // The face of the container through which the ray leaves it; empty when it does not pass through the
 // container, or leaves it above the walls of an open top.
-std::optional<WallOnRay> wall_behind(const Ray& ray, const Scene& scene, const Frame& frame);
+std::optional<WallOnRay> wall_behind(const Ray& ray, const Scene& scene, const State& frame);
 
 struct MeshOnRay {
     std::size_t mesh;       // index in the scene
@@ -51,7 +51,7 @@ struct MeshOnRay {
 };
 // Where the ray meets meshes, as they stand in the frame, the nearest first. Only parts that lie in all
 // halves count.
-std::vector<MeshOnRay> meshes_on(const Ray& ray, const Scene& scene, const Frame& frame,
+std::vector<MeshOnRay> meshes_on(const Ray& ray, const Scene& scene, const State& frame,
                                  const std::vector<KeptHalf>& kept);
 
 // Answers which grains lie along a ray through a moment, and which wall is behind them.
@@ -64,7 +64,7 @@ struct AlongRay {
 
 // `shown` has the grains of the snapshot at the places where they are drawn. The nearest comes first. With
 // `through` the answer goes on behind the first grain that is not transparent.
-Answer along_ray_answer(const Snapshot& snapshot, const Frame& shown, const Ray& ray, const AlongRay& along,
+Answer along_ray_answer(const Snapshot& snapshot, const State& shown, const Ray& ray, const AlongRay& along,
                         bool through);
 
 }  // namespace grainreel

@@ -62,11 +62,11 @@ Vec3 offset_of(const Scene& scene, const BodyPose& pose) {
 
 }  // namespace
 
-Vec3 container_offset(const Scene& scene, const Frame& frame) {
+Vec3 container_offset(const Scene& scene, const State& frame) {
     return offset_of(scene, frame.container());
 }
 
-Vec3 floor_offset(const Scene& scene, const Frame& frame) {
+Vec3 floor_offset(const Scene& scene, const State& frame) {
     return offset_of(scene, frame.floor());
 }
 
@@ -96,7 +96,7 @@ std::string name_of_body(const Snapshot& snapshot, std::int32_t id) {
     return wall < names.size() ? names[wall] : fmt::format("wall {}", wall);
 }
 
-std::vector<Vec3> displacement_since(const Frame& before, const Frame& now, int periods, double depth) {
+std::vector<Vec3> displacement_since(const State& before, const State& now, int periods, double depth) {
     const std::vector<std::size_t> rows = rows_in(before, now);
     std::vector<Vec3> displacement(now.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
     for (std::size_t i = 0; i < now.size(); ++i) {

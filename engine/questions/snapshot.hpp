@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/files/frames/frame_archive.hpp"
-#include "engine/frame.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/measure/flow/flowed_out.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/contact.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -21,7 +21,7 @@ struct MeshWear;  // engine/measure/walls/mesh_wear.hpp
 
 // What only the engine knows about a moment.
 struct SnapshotForces {
-    std::vector<ContactForce> contacts;  // all contacts that touch
+    std::vector<DetailedContact> contacts;  // all contacts that touch
     // Acceleration (m/s2) of each grain of the frame, from its motion to the next step. Empty with an
     // integrator whose steps do not tell it.
     std::vector<Vec3> acceleration;
@@ -34,10 +34,10 @@ enum class Needs { nothing, contacts, forces, period, velocities, spins };
 
 struct Snapshot {
     const Scene& scene;
-    Frame frame;
+    State frame;
     bool contacts = false;             // whether touches are known
-    Frame start;                       // the run's first moment
-    std::vector<Touch> touches{};      // contacts of the moment
+    State start;                       // the run's first moment
+    std::vector<Link> touches{};       // contacts of the moment
     std::vector<Vec3> displacement{};  // m, of each grain over the last period; empty where not known
     // Pressure and wear of the meshes, and what has flowed out; only of a kept moment whose film shows them.
     std::shared_ptr<const std::vector<MeshWear>> worn{};
@@ -59,8 +59,8 @@ struct Snapshot {
 
 // How far (m) the drive has moved the container, and its floor, from their places at rest. A turn of the
 // container does not count.
-Vec3 container_offset(const Scene& scene, const Frame& frame);
-Vec3 floor_offset(const Scene& scene, const Frame& frame);
+Vec3 container_offset(const Scene& scene, const State& frame);
+Vec3 floor_offset(const Scene& scene, const State& frame);
 
 // Names of all walls by their numbers (-1 - wall): the faces ("left slant"), then the meshes.
 std::vector<std::string> wall_names(const Scene& scene);
@@ -74,14 +74,14 @@ std::string name_of_body(const Snapshot& snapshot, std::int32_t id);
 // How far each grain moved in a period of the drive: the vector (m) from its place in `before` to its place
 // now, divided by the number of periods in between; NaN for a grain that was not there before. `depth` (m,
 // along x) is the length after which a periodic container repeats; 0 for none.
-std::vector<Vec3> displacement_since(const Frame& before, const Frame& now, int periods, double depth);
+std::vector<Vec3> displacement_since(const State& before, const State& now, int periods, double depth);
 
 // The same grains in two frames. Ids rise in both, and some grains may have come or gone between them.
 
 inline constexpr std::size_t kNoRow = static_cast<std::size_t>(-1);
 
 // For each grain of `frame`, its row in `other`; kNoRow where it is not there.
-inline std::vector<std::size_t> rows_in(const Frame& other, const Frame& frame) {
+inline std::vector<std::size_t> rows_in(const State& other, const State& frame) {
     std::vector<std::size_t> rows(frame.size(), kNoRow);
     std::size_t row = 0;
     for (std::size_t i = 0; i < frame.size(); ++i) {

@@ -206,7 +206,7 @@ AnswerTable empty_table(const StoredRun& run, const SeriesRequest& request) {
 
 // The kept moments that are nearest to the multiples of a time, each once.
 std::vector<std::size_t> kept_nearest(const StoredRun& run, double every) {
-    const std::vector<Frame>& moments = run.moments();
+    const std::vector<State>& moments = run.moments();
     std::vector<std::size_t> all;
     std::size_t at = 0;
     for (double k = std::ceil(run.from() / every - 1e-9); k * every <= run.to() * (1 + 1e-9); ++k) {

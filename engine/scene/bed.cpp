@@ -153,7 +153,7 @@ Extent extent_of_grains(const Scene& scene) {
         Vec3 flight = scene.run.duration * g.velocity;
         if (flight.norm() > farthest) flight *= farthest / flight.norm();
         if (scene.walls.empty()) extent.take(g.position + flight);
-        for (const FreeWall& wall : scene.walls) {
+        for (const ScenePlane& wall : scene.walls) {
             const double height = wall.normal.dot(g.position - wall.point);
             if (std::abs(height) < farthest) extent.take(g.position - height * wall.normal);
             const double towards = std::min(0.0, wall.normal.dot(flight));

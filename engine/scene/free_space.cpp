@@ -50,7 +50,7 @@ bool FreeSpace::in_room(const Vec3& place, double margin) const {
 }
 
 bool FreeSpace::before_planes(const Vec3& place, double margin) const {
-    return std::all_of(planes_.begin(), planes_.end(), [&](const FreeWall& plane) {
+    return std::all_of(planes_.begin(), planes_.end(), [&](const ScenePlane& plane) {
         return plane.normal.dot(place - plane.point) >= margin;
     });
 }

@@ -38,7 +38,7 @@ class FreeSpace {
 
     const Container container_;
     const std::optional<Region> region_;
-    const std::vector<FreeWall> planes_;
+    const std::vector<ScenePlane> planes_;
     std::vector<Shared<Surface>> meshes_;  // all but the container's mesh
     Vec3 low_{0, 0, 0}, high_{0, 0, 0};
     double volume_ = 0;

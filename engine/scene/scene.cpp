@@ -39,7 +39,7 @@ double Container::volume_below(double z) const {
     return depth * (slanted * mean_width + (z - slanted) * 2 * half_width);
 }
 
-bool Contact::rubs() const {
+bool SceneContacts::rubs() const {
     const auto has_friction = [](const PairContact& pair) { return pair.tangential != TangentialLaw::none; };
     return std::any_of(grain.begin(), grain.end(), has_friction) ||
            std::any_of(wall.begin(), wall.end(), has_friction) ||

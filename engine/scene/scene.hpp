@@ -101,13 +101,13 @@ struct PairContact {
     bool operator==(const PairContact&) const = default;
 };
 
-struct Contact {
+struct SceneContacts {
     LeverArms arms = LeverArms::contact_plane;
     std::vector<PairContact> grain;  // species x species, symmetric, row-major
     std::vector<PairContact> wall;   // one for each species
     std::vector<PairContact> mesh;   // mesh x species, row-major
     bool rubs() const;               // whether any of them has friction
-    bool operator==(const Contact&) const = default;
+    bool operator==(const SceneContacts&) const = default;
 };
 
 // An opening in the floor through which grains leave. It must be wider than the largest grain.
@@ -220,13 +220,13 @@ struct Region {
 };
 
 // A plane anywhere, with the grains on one side of it.
-struct FreeWall {
+struct ScenePlane {
     std::string name;
     Vec3 point{0, 0, 0};     // m
     Vec3 normal{0, 0, 1};    // unit, towards the grains
     Vec3 velocity{0, 0, 0};  // m/s, steady
     bool moves = false;      // follows the drive as well
-    bool operator==(const FreeWall&) const = default;
+    bool operator==(const ScenePlane&) const = default;
 };
 
 // A stage of the drive: from a certain time of the run on, the drive does something else.
@@ -354,9 +354,9 @@ struct Scene {
     std::string name;  // the file's stem, for the output folder
     std::string title;
     std::vector<Species> species;
-    Contact contact;
+    SceneContacts contact;
     Container container;
-    std::vector<FreeWall> walls;
+    std::vector<ScenePlane> walls;
     std::vector<SceneMesh> meshes;
     std::vector<ExitBox> exits;
     std::vector<Feed> feeds;

@@ -55,7 +55,7 @@ void find_overlaps(const Scene& scene, BedInFile& bed) {
     Team alone(1);
     StepLoop loop(plan, around, bed.grains, alone);
     loop.restart();
-    const WeightMoments moments(scene.gravity, bed.grains);
+    const WeightSums moments(scene.gravity, bed.grains);
     bed.moment_of_weights = moments.of_weights();
     loop.visit_contacts(-1, [&](const ContactView& c) {
         bed.overlaps.push_back({static_cast<std::size_t>(c.first), c.second, c.glued >= 0, c.overlap,
@@ -130,7 +130,7 @@ std::string what_moves(const Scene& scene, const BedInFile& bed) {
 }
 
 void look_at_speeds(const Scene& scene, BedInFile& bed) {
-    const WeightMoments moments(scene.gravity, bed.grains);
+    const WeightSums moments(scene.gravity, bed.grains);
     const double gravity = scene.gravity.norm();
     for (std::size_t i = 0; i < bed.grains.size(); ++i) {
         const Place& place = bed.grains.place[i];
@@ -220,7 +220,7 @@ bool same_grains(const Grains& one, const Grains& other, const Vec3& offset) {
 }  // namespace
 
 bool StartOrigin::walls_moved() const {
-    const Pose pose = around.motion.at(step);
+    const DrivePose pose = around.motion.at(step);
     const auto moved = [&](const Body& body) {
         return body.has_own_motion() && !(body.at(pose) == BodyPose{});
     };

@@ -56,7 +56,7 @@ struct BedInFile {
         double carries;  // m: the part of moment_of_weights that a force of 1 N at this contact carries
     };
     std::vector<Overlap> overlaps;
-    double moment_of_weights = 0;  // J, the sum of weight times height (WeightMoments)
+    double moment_of_weights = 0;  // J, the sum of weight times height (WeightSums)
 
     // Says what keeps the bed from resting in this scene; empty when it rests. A bed rests when the mean
     // kinetic energy of a grain is at most 1e-4 m g d, no grain has more than 0.05 m g d, at least half of
@@ -72,7 +72,7 @@ BedInFile bed_in_file(const Scene& scene);
 
 // Sets `linear` and `modulus` of the facts: the stiffness with which the bed's overlaps carry its weight.
 // There is one value for all linear contacts, and one for all Hertz contacts, that have no stiffness in the
-// scene (WeightMoments in held_histories.hpp).
+// scene (WeightSums in held_histories.hpp).
 void stiffness_of_overlaps(const Scene& scene, const BedInFile& bed, StartFacts& facts);
 
 }  // namespace grainreel

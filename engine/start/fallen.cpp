@@ -10,7 +10,7 @@ namespace grainreel {
 namespace {
 
 // How far (m) a mesh reaches in a direction, before anything moves.
-double farthest(const MeshWall& mesh, const Pose& rest, const Vec3& direction) {
+double farthest(const MeshWall& mesh, const DrivePose& rest, const Vec3& direction) {
     const BodyPose pose = mesh.body.at(rest);
     const MeshFacts& facts = mesh.surface->facts();
     double most = -std::numeric_limits<double>::infinity();

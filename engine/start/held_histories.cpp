@@ -271,7 +271,7 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
         double overlap;
     };
     std::map<BodyKey, Latch> fresh;
-    const WeightMoments moments(around.gravity, grains);
+    const WeightSums moments(around.gravity, grains);
     double wanted = moments.of_weights(), there = 0;
     loop.visit_contacts(kBefore, [&](const ContactView& c) {
         const PairPlan& pair = plan_of(plan, around, grains, c);
@@ -302,7 +302,7 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
     });
 }
 
-WeightMoments::WeightMoments(const Vec3& gravity, const Grains& grains) : grains_(grains) {
+WeightSums::WeightSums(const Vec3& gravity, const Grains& grains) : grains_(grains) {
     if (gravity.norm() > 0) up_ = -gravity / gravity.norm();
     lowest_ = std::numeric_limits<double>::infinity();
     for (const Place& p : grains.place) lowest_ = std::min(lowest_, up_.dot(p.position) - p.radius);
@@ -310,7 +310,7 @@ WeightMoments::WeightMoments(const Vec3& gravity, const Grains& grains) : grains
         of_weights_ += grains.mass(i) * gravity.norm() * height(grains.place[i].position);
 }
 
-double WeightMoments::carried(const ContactView& contact) const {
+double WeightSums::carried(const ContactView& contact) const {
     const Place& first = grains_.place[contact.first];
     const double along = up_.dot(contact.normal);
     // The force on the first body points against the normal.

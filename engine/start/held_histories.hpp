@@ -45,9 +45,9 @@ void set_latches(const Plan& plan, const Surroundings& around, const Grains& gra
 // grain's height and add all grains: the moments of all contact forces (force times height difference) equal
 // those of the weights (weight times height). Friction, which carries the smaller part, is left out.
 
-class WeightMoments {
+class WeightSums {
   public:
-    WeightMoments(const Vec3& gravity, const Grains& grains);
+    WeightSums(const Vec3& gravity, const Grains& grains);
     double of_weights() const { return of_weights_; }  // J, sum of weight times height
     // How much of that sum a normal force of 1 N at this contact carries (m).
     double carried(const ContactView& contact) const;

@@ -64,7 +64,7 @@ class Room {
 
     bool is_clear(const Vec3& centre, double margin) const {
         bool clear = true;
-        search_.near(centre, margin, Pose(), [&](std::int32_t, double) { clear = false; });
+        search_.near(centre, margin, DrivePose(), [&](std::int32_t, double) { clear = false; });
         return clear;
     }
 
@@ -187,13 +187,13 @@ void first_radii(Growing& g, double reach) {
             allowed[i] = std::min(allowed[i], std::max(distance, 0.1 * g.wanted_of(i)));
         }
         for (const MeshWall& mesh : g.around.meshes) {
-            const Vec3 place = mesh.body.at(Pose()).at_rest(g.grains.place[i].position);
+            const Vec3 place = mesh.body.at(DrivePose()).at_rest(g.grains.place[i].position);
             const auto nearest = mesh.surface->nearest(place, allowed[i]);
             if (!nearest) continue;
             allowed[i] =
                 std::min(allowed[i], std::max(std::sqrt(nearest->point.squared), 0.1 * g.wanted_of(i)));
         }
-        glued.near(g.grains.place[i].position, allowed[i], Pose(), [&](std::int32_t, double gap) {
+        glued.near(g.grains.place[i].position, allowed[i], DrivePose(), [&](std::int32_t, double gap) {
             allowed[i] = std::min(allowed[i], std::max(gap, 0.1 * g.wanted_of(i)));
         });
     }

@@ -8,7 +8,7 @@
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/reach.hpp"
 #include "engine/scene/bed.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
 
 namespace grainreel {
 
@@ -84,7 +84,7 @@ bool is_near(const Surface& surface, const BodyPose& pose, const GrainReach& rea
 
 bool is_ever_near(const Scene& scene, const Plan& plan, const Body& body, const SceneMesh& mesh,
                   const GrainReach& reach) {
-    const WallMotion motion(scene.drive, plan.clock);
+    const DriveMotion motion(scene.drive, plan.clock);
     const std::vector<std::int64_t> moments = moments_of(body, scene, plan);
     const double steps = static_cast<double>(moments.back()) / kMomentsOfMotion;
     const double more = moments.size() > 1 ? own_speed(mesh) * steps * plan.clock.step : 0;

@@ -101,7 +101,7 @@ class BeforeFaces {
     }
 
     void check_at(const Face& face, std::int64_t step) const {
-        const Pose drive = paths_.around.motion.at(step);
+        const DrivePose drive = paths_.around.motion.at(step);
         const BodyPose pose = mesh_.body.at(drive);
         double deepest = 0;
         for (const Vec3& corner : inside_) {
@@ -183,7 +183,7 @@ class Crossings {
   private:
     template <class See>
     void each_at(std::int64_t step, const See& see) const {
-        const Pose drive = paths_.around.motion.at(step);
+        const DrivePose drive = paths_.around.motion.at(step);
         const BodyPose pose = one_.body.at(drive), its = other_.body.at(drive);
         const std::vector<Vec3>& vertices = one_.surface->mesh().vertices;
         const Eigen::AlignedBox3d box(other_.surface->facts().low, other_.surface->facts().high);

@@ -34,12 +34,12 @@ class Cloud {
     }
 
     // Returns the next grain; its place is still to be found.
-    NewGrain next() {
+    ComingGrain next() {
         auto drawn = static_cast<std::int64_t>(order_.uniform() * static_cast<double>(all_left_--));
         std::size_t s = 0;
         while (drawn >= left_[s]) drawn -= left_[s++];
         --left_[s];
-        NewGrain grain;
+        ComingGrain grain;
         grain.species = static_cast<std::int32_t>(s);
         grain.radius = 0.5 * draw_diameter(scene_.species[s].diameter, diameters_);
         grain.density = scene_.species[s].density;
@@ -101,11 +101,11 @@ class Shower {
           next_(cloud_.next()) {}
 
     // The grains that come now: until `due` have come, or until the next one finds no place.
-    std::vector<NewGrain> fall(const Grains& there, double due) {
+    std::vector<ComingGrain> fall(const Grains& there, double due) {
         const Extent box = layer_.at(solid_);
         FreePlaces free(around_, around_.motion.at(-1), there, box.low, box.high, largest_);
         free.only_where(layer_.where());
-        std::vector<NewGrain> more;
+        std::vector<ComingGrain> more;
         while (static_cast<double>(come_ + 1) <= due) {
             const auto place = free.take(next_.radius, places_);
             if (!place) break;
@@ -126,7 +126,7 @@ class Shower {
     const RisingLayer layer_;
     Random places_;
     const double largest_;  // m, radius
-    NewGrain next_;
+    ComingGrain next_;
     double solid_ = 0;  // m3 of grains that have come
     std::int64_t come_ = 0;
 };
@@ -147,7 +147,7 @@ RainReport rain(const Scene& scene, const Plan& plan, const Surroundings& around
     std::int64_t last = 0;  // step in which the last grain came
     while (true) {
         const double looked = step * static_cast<double>(report.steps + kStepsPerLook);
-        const std::vector<NewGrain> more = shower.fall(grains, std::min(all, rate * looked));
+        const std::vector<ComingGrain> more = shower.fall(grains, std::min(all, rate * looked));
         if (!more.empty()) last = report.steps;
         loop.insert(more);
         if (shower.come() == scene.grains_at_start()) return report;
@@ -175,8 +175,8 @@ constexpr double kGap = 1e-3;  // as a share of the radius
 
 }  // namespace
 
-FreePlaces::FreePlaces(const Surroundings& around, const Pose& pose, const Grains& grains, const Vec3& low,
-                       const Vec3& high, double largest)
+FreePlaces::FreePlaces(const Surroundings& around, const DrivePose& pose, const Grains& grains,
+                       const Vec3& low, const Vec3& high, double largest)
     : around_(around), pose_(pose), low_(low), high_(high) {
     const auto take = [&](const Place& place) {
         const double reach = place.radius + largest * (1 + kGap);

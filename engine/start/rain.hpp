@@ -39,7 +39,7 @@ constexpr std::int64_t kStepsPerLook = 200;
 class FreePlaces {
   public:
     // largest (m) is the largest radius of the grains to come. The surroundings must outlive this object.
-    FreePlaces(const Surroundings& around, const Pose& pose, const Grains& grains, const Vec3& low,
+    FreePlaces(const Surroundings& around, const DrivePose& pose, const Grains& grains, const Vec3& low,
                const Vec3& high, double largest);
 
     // Draws places evenly from the box until a grain of this radius (m) is farther from every other grain
@@ -56,7 +56,7 @@ class FreePlaces {
     bool is_free(const Vec3& place, double radius) const;
 
     const Surroundings& around_;
-    const Pose pose_;
+    const DrivePose pose_;
     const Vec3 low_, high_;
     std::vector<Place> near_;
     std::vector<BodyPose> meshes_;  // poses of the surroundings' meshes

@@ -39,7 +39,7 @@ Grains grains_from_table(const Scene& scene) {
     if (scene.start.keep_clock)
         fail(scene,
              "is a table of grains and knows no clock; give a checkpoint, or set start.keep_clock = false");
-    const Frame frame = read_grain_table(scene.start.file);
+    const State frame = read_grain_table(scene.start.file);
     Grains grains;
     grains.reserve(frame.id.size());
     const std::vector<std::int32_t> number = numbers_without_gaps(frame.id);
@@ -216,7 +216,7 @@ void check_meshes(const Scene& scene, const std::vector<MeshWall>& meshes, const
                   std::size_t i) {
     const Place& grain = grains.place[i];
     for (const MeshWall& mesh : meshes) {
-        const Vec3 place = mesh.body.at(Pose()).at_rest(grain.position);
+        const Vec3 place = mesh.body.at(DrivePose()).at_rest(grain.position);
         if (const std::string why = why_no_grain_at(scene, mesh, place); !why.empty())
             fail(scene, grains.id[i], why);
         const auto nearest = mesh.surface->nearest(place, (1 - kTooDeep) * grain.radius);

@@ -5,11 +5,11 @@
 
 namespace grainreel {
 
-std::vector<Body> bodies_of(const Drive& drive, const std::vector<FreeWall>& planes) {
+std::vector<Body> bodies_of(const Drive& drive, const std::vector<ScenePlane>& planes) {
     std::vector<Body> bodies{
         {kContainerBody, drive.present && drive.moves == Drive::Moves::container, Vec3(0, 0, 0)},
         {kFloorBody, drive.present, Vec3(0, 0, 0)}};
-    for (const FreeWall& plane : planes)
+    for (const ScenePlane& plane : planes)
         bodies.push_back({static_cast<std::int32_t>(bodies.size()), plane.moves, plane.velocity});
     return bodies;
 }
@@ -29,7 +29,7 @@ std::int32_t first_mesh_body(const Scene& scene) {
     return kFirstPlaneBody + static_cast<std::int32_t>(scene.walls.size());
 }
 
-BodyPose Body::at(const Pose& drive) const {
+BodyPose Body::at(const DrivePose& drive) const {
     BodyPose pose{place_at(drive), Quaternion::Identity(), velocity_at(drive), Vec3(0, 0, 0)};
     if (turn) {
         pose.rotation = rotation_about(turn->axis, turn->angle_at(drive.time));
@@ -49,15 +49,15 @@ BodyPose Body::at(const Pose& drive) const {
     return pose;
 }
 
-std::vector<BodyPose> poses_of(const std::vector<Body>& bodies, const Pose& drive) {
+std::vector<BodyPose> poses_of(const std::vector<Body>& bodies, const DrivePose& drive) {
     std::vector<BodyPose> poses;
     for (const Body& body : bodies) poses.push_back(body.at(drive));
     return poses;
 }
 
 // The floor follows every drive. Before the drive starts all bodies are at rest.
-void add_planes(const std::vector<FreeWall>& planes, double time, std::vector<BodyPose>& poses) {
-    Pose drive;
+void add_planes(const std::vector<ScenePlane>& planes, double time, std::vector<BodyPose>& poses) {
+    DrivePose drive;
     if (time >= 0) drive = {poses.at(kFloorBody).place, poses.at(kFloorBody).velocity, time};
     const std::vector<Body> bodies = bodies_of({}, planes);
     for (std::size_t b = poses.size(); b < bodies.size(); ++b) poses.push_back(bodies[b].at(drive));

@@ -10,7 +10,7 @@
 namespace grainreel {
 
 // A contact of two bodies that push each other.
-struct Touch {
+struct Link {
     std::int32_t first, second;  // ids; second is -1 - face for a wall
     double force;                // N, normal force
 };

@@ -60,7 +60,7 @@ FaceDistance distance_to_plate(const Face& face, const Vec3& offset, const Vec3&
     return {distance, distance > 0 ? Vec3(v / distance) : face.normal};
 }
 
-FaceDistance distance_at(const Face& face, const Pose& drive, const Vec3& centre) {
+FaceDistance distance_at(const Face& face, const DrivePose& drive, const Vec3& centre) {
     if (!face.body.has_own_motion()) return distance_to(face, face.displacement(drive), centre);
     const BodyPose pose = face.body.at(drive);
     FaceDistance found = distance_to(face, Vec3::Zero(), pose.at_rest(centre));
@@ -68,7 +68,7 @@ FaceDistance distance_at(const Face& face, const Pose& drive, const Vec3& centre
     return found;
 }
 
-Vec3 velocity_of(const Face& face, const Pose& drive, const Vec3& point) {
+Vec3 velocity_of(const Face& face, const DrivePose& drive, const Vec3& point) {
     return face.body.has_own_motion() ? face.body.at(drive).velocity_at(point) : face.velocity_at(drive);
 }
 
@@ -84,7 +84,7 @@ std::vector<Face> container_faces(const Container& container, const Drive& drive
     return faces;
 }
 
-std::vector<Face> free_faces(const std::vector<FreeWall>& walls) {
+std::vector<Face> free_faces(const std::vector<ScenePlane>& walls) {
     std::vector<Face> faces;
     const std::vector<Body> bodies = bodies_of({}, walls);
     for (std::size_t w = 0; w < walls.size(); ++w) {

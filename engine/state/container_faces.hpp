@@ -12,10 +12,10 @@
 
 namespace grainreel {
 
-struct Container;  // engine/scene/scene.hpp
-struct Drive;      // there too
-struct FreeWall;   // there too
-struct Scene;      // there too
+struct Container;   // engine/scene/scene.hpp
+struct Drive;       // there too
+struct ScenePlane;  // there too
+struct Scene;       // there too
 
 struct Face {
     enum class Kind { plane, cylinder };
@@ -40,8 +40,8 @@ struct Face {
 
     // Only for a face whose body has no motion of its own (Body::has_own_motion()). For other faces see
     // distance_at() and velocity_of().
-    Vec3 displacement(const Pose& drive) const { return body.place_at(drive); }
-    Vec3 velocity_at(const Pose& drive) const { return body.velocity_at(drive); }
+    Vec3 displacement(const DrivePose& drive) const { return body.place_at(drive); }
+    Vec3 velocity_at(const DrivePose& drive) const { return body.velocity_at(drive); }
 };
 
 struct FaceDistance {
@@ -66,11 +66,11 @@ inline FaceDistance distance_to(const Face& face, const Vec3& offset, const Vec3
 }
 
 // The distance at a pose of the drive, also for a face whose body turns or follows a path.
-FaceDistance distance_at(const Face& face, const Pose& drive, const Vec3& centre);
+FaceDistance distance_at(const Face& face, const DrivePose& drive, const Vec3& centre);
 
 // The velocity (m/s) of a point (m) of a face at a pose of the drive, also if the face's body turns or
 // follows a path.
-Vec3 velocity_of(const Face& face, const Pose& drive, const Vec3& point);
+Vec3 velocity_of(const Face& face, const DrivePose& drive, const Vec3& point);
 
 // The faces of a scene's container at rest; their bodies follow the scene's drive, but do not turn. Front and
 // back are left out when the depth is periodic. The lid is left out when the top is open, and the walls then
@@ -78,7 +78,7 @@ Vec3 velocity_of(const Face& face, const Pose& drive, const Vec3& point);
 std::vector<Face> container_faces(const Container& container, const Drive& drive);
 
 // The scene's own planes, [[wall]].
-std::vector<Face> free_faces(const std::vector<FreeWall>& walls);
+std::vector<Face> free_faces(const std::vector<ScenePlane>& walls);
 
 // All faces of a scene at rest, in the order of their numbers. First come the container's faces, which turn
 // with it, then the planes, then the faces of the tray below an outlet.

@@ -23,7 +23,7 @@ struct GluedGrains {
     std::size_t size() const { return place.size(); }
     bool empty() const { return place.empty(); }
     // Centre (m) of a glued grain at a pose of the drive.
-    Vec3 centre(std::size_t g, const std::vector<Face>& faces, const Pose& pose) const {
+    Vec3 centre(std::size_t g, const std::vector<Face>& faces, const DrivePose& pose) const {
         const Face& on = faces[face[g]];
         return place[g].position + on.point + on.displacement(pose);
     }

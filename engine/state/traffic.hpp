@@ -46,7 +46,7 @@ struct Departure {
     double energy = 0;  // J: kinetic, gravitational, and what its contacts held
 };
 
-struct NewGrain {
+struct ComingGrain {
     std::int32_t species = 0;
     double radius = 0, density = 0;                            // m, kg/m3
     Vec3 position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};  // m, m/s, rad/s
@@ -68,11 +68,11 @@ struct Traffic {
 // A grain of a feed, without its place. `feed` is the number of the feed in the scene, and `number` is the
 // grain's number in the feed, from 0. Scene and seed determine the grain, so the number of grains that have
 // come tells which ones have come.
-inline NewGrain fed_grain(const Scene& scene, std::size_t feed, std::int64_t number) {
+inline ComingGrain fed_grain(const Scene& scene, std::size_t feed, std::int64_t number) {
     const Feed& from = scene.feeds[feed];
     const Species& species = scene.species[from.species];
     Random random(scene.run.seed, Stream::feed_sizes, {static_cast<std::int64_t>(feed), number});
-    NewGrain grain;
+    ComingGrain grain;
     grain.species = static_cast<std::int32_t>(from.species);
     grain.radius = 0.5 * draw_diameter(species.diameter, random);
     grain.density = species.density;

@@ -182,7 +182,7 @@ void StepLoop::restart() {
     if (grains_.size() == 0) return lists_.begin_empty();
     lists_.restart();
     for (Member& m : members_) m.fastest.setZero();
-    const Pose rest = around_.motion.at(-1);
+    const DrivePose rest = around_.motion.at(-1);
     team_.run([&](int member) {
         WallState& walls = members_[member].walls;
         walls.set(around_, rest, rest, 0);
@@ -222,7 +222,7 @@ std::array<double, kCosts> StepLoop::cost_shares() const {
 void StepLoop::visit_contacts(std::int64_t at_step,
                               const std::function<void(const ContactView&)>& visit) const {
     WallState walls;
-    const Pose pose = around_.motion.at(at_step);
+    const DrivePose pose = around_.motion.at(at_step);
     walls.set(around_, pose, pose, 0);
     const ForceInput in{rules_, grains_, walls, around_.glued, around_.meshes, {}};
     std::vector<ContactView> late;

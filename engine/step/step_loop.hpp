@@ -60,7 +60,7 @@ class StepLoop {
     void remove(const std::vector<std::int32_t>& ids, std::int64_t step);
     // Adds grains between two runs, after a restart(). New grains must touch nothing. They get rising ids
     // that no grain has had. Returns the first of these ids.
-    std::int32_t insert(const std::vector<NewGrain>& grains);
+    std::int32_t insert(const std::vector<ComingGrain>& grains);
     // Lets `change` open an outlet between two runs, so that faces of the surroundings end or have a gap.
     // Faces keep their numbers, and no face may grow.
     void open_faces(const std::function<void()>& change, std::int64_t step);
@@ -145,7 +145,7 @@ class StepLoop {
     void take_out(const std::vector<std::int32_t>& leavers, std::int64_t step);
     std::vector<bool> note_departures(const std::vector<std::int32_t>& leavers, std::int64_t step);
     void sum_loads_anew(const std::vector<bool>& of, std::int64_t step);
-    void add(const NewGrain& grain);
+    void add(const ComingGrain& grain);
     bool is_traffic_sound() const;
 
     const Surroundings& around_;

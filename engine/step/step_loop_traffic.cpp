@@ -181,17 +181,17 @@ std::vector<Departure> StepLoop::take_departures() {
     return std::exchange(departures_, {});
 }
 
-std::int32_t StepLoop::insert(const std::vector<NewGrain>& more) {
+std::int32_t StepLoop::insert(const std::vector<ComingGrain>& more) {
     GRAINREEL_CHECK(lists_.are_made());
     for (const std::int32_t id : grains_.id)
         traffic_.next_id = std::max<std::int64_t>(traffic_.next_id, id + std::int64_t{1});
     const auto first = static_cast<std::int32_t>(traffic_.next_id);
-    for (const NewGrain& grain : more) add(grain);
+    for (const ComingGrain& grain : more) add(grain);
     if (!more.empty()) lists_.renew_shares();
     return first;
 }
 
-void StepLoop::add(const NewGrain& grain) {
+void StepLoop::add(const ComingGrain& grain) {
     grains_.add(static_cast<std::int32_t>(traffic_.next_id++), grain.species, grain.position, grain.radius,
                 grain.density);
     Motion& motion = grains_.motion.back();
@@ -220,7 +220,7 @@ std::vector<double> heights_of_walls(const Surroundings& around) {
 }
 
 // Vector (m) from a wall's point to a place.
-Vec3 arm_at(const Surroundings& around, std::size_t wall, const Pose& pose, const Vec3& place) {
+Vec3 arm_at(const Surroundings& around, std::size_t wall, const DrivePose& pose, const Vec3& place) {
     if (wall >= around.faces.size()) {
         const MeshWall& mesh = around.meshes[wall - around.faces.size()];
         return place - mesh.body.at(pose).moved(mesh.point);
@@ -242,7 +242,7 @@ void StepLoop::tally_walls(const WallScale& scale, std::int64_t step) {
         m.walls.tally = &m.tally;
     }
     // The forces at the start give the first half kick, so they are counted.
-    const Pose pose = around_.motion.at(step);
+    const DrivePose pose = around_.motion.at(step);
     members_[0].tally.begin_evaluation(last_share());
     visit_contacts(step, [&](const ContactView& c) {
         if (c.second >= 0) return;

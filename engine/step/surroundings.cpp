@@ -50,7 +50,7 @@ Surroundings make_surroundings(const Scene& scene, const Plan& plan) {
     Surroundings around;
     around.faces = faces_of(scene);
     around.glued = glue_grains(scene, around.faces);
-    around.motion = WallMotion(scene.drive, plan.clock);
+    around.motion = DriveMotion(scene.drive, plan.clock);
     around.gravity = scene.gravity;
     around.period = period_of_depth(scene.container);
     around.skin = kSkinShare * smallest_radius(scene);

@@ -11,9 +11,9 @@
 #include "engine/base/vector.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
+#include "engine/state/drive_motion.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/traffic.hpp"
-#include "engine/state/wall_motion.hpp"
 
 namespace grainreel {
 
@@ -33,7 +33,7 @@ struct Surroundings {
     std::vector<Face> faces;
     GluedGrains glued;  // glued to these faces
     std::vector<MeshWall> meshes;
-    WallMotion motion;
+    DriveMotion motion;
     Vec3 gravity{0, 0, 0};  // m/s2
     double period = 0;      // m, along x; 0 where x is not periodic
     // m: the first neighbour lists hold grains up to this distance beyond contact. Later lists use a distance

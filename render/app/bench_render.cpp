@@ -59,8 +59,8 @@ FilmedScene scene_of(const SettledBed& bed, const BenchRenderRequest& request) {
     return scene;
 }
 
-Frame frame_of(const SettledBed& bed) {
-    Frame frame;
+State frame_of(const SettledBed& bed) {
+    State frame;
     const Grains& g = bed.grains;
     for (std::size_t i = 0; i < g.size(); ++i) {
         frame.id.push_back(g.id[i]);
@@ -75,7 +75,7 @@ Frame frame_of(const SettledBed& bed) {
 
 // Moves the camera closer until the grains fill the height or the width of their part of the picture, then
 // applies the zoom that was asked for.
-void fill_picture(FilmedScene& scene, const Frame& frame) {
+void fill_picture(FilmedScene& scene, const State& frame) {
     scene.film.words = WordPlace::gutters;  // otherwise a zoom would put the words over the picture
     const double zoom = std::exchange(scene.film.camera.zoom, 1.0);
     const View view = frame_container(scene, plan_layout(scene));
@@ -196,7 +196,7 @@ double encode_time(const Picture& picture, const Film& film, int threads) {
 
 // Writes the picture, and the two files from which another renderer can draw the same picture: the spheres in
 // view coordinates (x right, y up, z away from the eye) and the camera.
-void keep(const std::filesystem::path& folder, const Picture& picture, const Frame& frame, const View& view) {
+void keep(const std::filesystem::path& folder, const Picture& picture, const State& frame, const View& view) {
     std::filesystem::create_directories(folder);
     write_png(folder / "picture.png", picture, {});
     std::string table = "x,y,z,radius,species\n";

@@ -58,7 +58,7 @@ void write_png_file(const std::filesystem::path& path, int width, int height,
 
 // Adds species that only the frame has, as "type 2" and so on. Counts the grains of species that the scene
 // gives no grains, and enlarges each species' largest diameter to that in the frame.
-void name_species(const Frame& frame, std::vector<Species>& species) {
+void name_species(const State& frame, std::vector<Species>& species) {
     std::vector<bool> counted;
     for (const Species& one : species) counted.push_back(one.all() > 0);
     const auto unknown = [&](std::size_t kind) { return kind >= counted.size() || !counted[kind]; };
@@ -75,7 +75,7 @@ void name_species(const Frame& frame, std::vector<Species>& species) {
 }
 
 // Lists the frame's grains in the scene, and gives its container the size of the box around them.
-void list_grains(const Frame& frame, Scene& scene) {
+void list_grains(const State& frame, Scene& scene) {
     for (std::size_t i = 0; i < frame.size(); ++i) {
         ListedGrain grain;
         grain.species = static_cast<std::size_t>(frame.species[i]);
@@ -91,7 +91,7 @@ void list_grains(const Frame& frame, Scene& scene) {
 // A film for frames that come without one: it has all defaults, and the species have the palette's colours.
 // What the scene itself says of its film and colours is ignored. The frame adds species that the scene lacks.
 // If the scene has neither a container nor listed grains, the frame also tells how much room the grains take.
-FilmedScene with_plain_film(const Scene& scene, const Frame& frame) {
+FilmedScene with_plain_film(const Scene& scene, const State& frame) {
     FilmedScene filmed{scene, {}, {}};
     name_species(frame, filmed.species);
     if (filmed.container.shape == Container::Shape::none && filmed.start.grains.empty())
@@ -144,7 +144,7 @@ std::string without_place(const std::string& message) {
 
 // A scene as text that has these species and nothing else. Each has one grain: as high as the highest in the
 // frame, and as fast as the fastest. From these follow the ranges of colours where no setting says them.
-std::string film_text(const grainreel::Scene& scene, const grainreel::Frame& frame) {
+std::string film_text(const grainreel::Scene& scene, const grainreel::State& frame) {
     std::string text = fmt::format("[film]\ntitle = {}\n", toml_text(scene.title));
     text += "[container]\nshape = \"none\"\n[run]\nduration = \"1 s\"\n";
     std::vector<double> high(scene.species.size(), 0), fast = high, large = high;
@@ -198,7 +198,7 @@ void refuse_unknown_colour(const std::vector<std::string>& settings) {
 
 // Sets film and colours by the settings, which are read as keys of a scene with these species and nothing
 // else. frame: where the grains are at first.
-void take_settings(FilmedScene& scene, const grainreel::Frame& frame,
+void take_settings(FilmedScene& scene, const grainreel::State& frame,
                    const std::vector<std::string>& settings) {
     refuse_unknown_colour(settings);
     try {
@@ -213,7 +213,7 @@ void take_settings(FilmedScene& scene, const grainreel::Frame& frame,
 }
 
 // The scene for walls that the caller gives, with the boxes of its meshes filled in.
-grainreel::Scene scene_with_walls(const grainreel::World& world) {
+grainreel::Scene scene_with_walls(const grainreel::StoredWorld& world) {
     grainreel::Scene scene = scene_of(world);
     for (SceneMesh& mesh : scene.meshes) {
         const TriangleMesh& triangles = mesh.surface->mesh();
@@ -232,8 +232,8 @@ grainreel::Scene scene_with_walls(const grainreel::World& world) {
 
 // shown: a frame whose grains all fit into the picture. first: the frame from which the ranges of colours
 // follow.
-FilmedScene plain_scene(const grainreel::Scene& scene, const grainreel::Frame& shown,
-                        const grainreel::Frame& first, const std::vector<std::string>& settings) {
+FilmedScene plain_scene(const grainreel::Scene& scene, const grainreel::State& shown,
+                        const grainreel::State& first, const std::vector<std::string>& settings) {
     FilmedScene filmed = with_plain_film(scene, shown);
     take_settings(filmed, first, settings);
     return filmed;
@@ -283,9 +283,9 @@ Painter::Painter(const World& world, const Frame& first, const std::vector<std::
     : impl_(told([&] {
           check_words(world.title, "the title of a world");
           for (const std::string& name : world.species) check_words(name, "the name of a species");
-          const grainreel::World inner = inside(world);
+          const grainreel::StoredWorld inner = inside(world);
           const std::string who = "the first frame of a painter";
-          grainreel::Frame frame = inside(first, world.species.size(), who);
+          grainreel::State frame = inside(first, world.species.size(), who);
           take_poses(frame, first.bodies.size(), inner.bodies.size(), who);
           FilmedScene filmed = plain_scene(scene_with_walls(inner), frame, frame, settings);
           for (const Mesh& wall : world.walls)
@@ -295,9 +295,9 @@ Painter::Painter(const World& world, const Frame& first, const std::vector<std::
 
 Painter::Painter(const FrameFile& file, const std::vector<std::string>& settings)
     : impl_(told([&] {
-          const FrameArchive& frames = *file.impl().archive;
-          const grainreel::Frame last = frames.grains(frames.moments().size() - 1);
-          const grainreel::Frame first = frames.moments().size() > 1 ? frames.first_whole() : last;
+          const StateArchive& frames = *file.impl().archive;
+          const grainreel::State last = frames.grains(frames.moments().size() - 1);
+          const grainreel::State first = frames.moments().size() > 1 ? frames.first_whole() : last;
           const grainreel::Scene scene = frames.scene() ? *frames.scene() : scene_with_walls(frames.world());
           FilmedScene filmed = plain_scene(scene, last, first, settings);
           const std::size_t kinds = filmed.species.size();
@@ -311,7 +311,7 @@ Painter& Painter::operator=(Painter&&) noexcept = default;
 Picture Painter::draw(const Frame& frame, const std::string& words) {
     const std::string who = "a frame to draw";
     check_words(words, "the words of a picture");
-    grainreel::Frame inner = inside(frame, impl_->species, who);
+    grainreel::State inner = inside(frame, impl_->species, who);
     take_poses(inner, frame.bodies.size(), std::max(impl_->bodies, inner.bodies.size()), who);
     const Shot shot(std::move(inner));
     const grainreel::Picture& drawn =

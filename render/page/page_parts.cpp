@@ -205,7 +205,7 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
     return html;
 }
 
-std::string bed_about(const BedFrames& bed, const PageMeshes& meshes, const FilmedScene& scene) {
+std::string bed_about(const PageBed& bed, const PageMeshes& meshes, const FilmedScene& scene) {
     const Vec3 error = 1e6 * bed.error();
     std::string text = fmt::format(
         "Places are rounded to 16 bits over the box that the grains reach: they are off by {:.2g} µm along "

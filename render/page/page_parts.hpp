@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "render/page/bed/bed_frames.hpp"
+#include "render/page/bed/page_bed.hpp"
 #include "render/page/bed/page_meshes.hpp"
 #include "render/page/facts/methods.hpp"
 #include "render/page/page_film.hpp"
@@ -28,7 +28,7 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
                       const std::string& why_not_tied, const std::string& n = "", bool beside = true);
 
 // Says which of the bed's moments the page has, and how exact they are.
-std::string bed_about(const BedFrames& bed, const PageMeshes& meshes, const FilmedScene& scene);
+std::string bed_about(const PageBed& bed, const PageMeshes& meshes, const FilmedScene& scene);
 
 // The scene's captions as buttons that go to their moments; empty without captions.
 std::string story_html(const FilmedScene& scene);

@@ -128,7 +128,7 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
     meshes_ = page_meshes(scene(), most_bytes / share_of_meshes);
     most_bytes -= meshes_.packed.size();
     const double start = times_.times.empty() ? run_.run->from() : times_.times.front();
-    const auto coloured = [&](const FrameArchive& moments) {
+    const auto coloured = [&](const StateArchive& moments) {
         return film_has_scale(scene())
                    ? std::make_unique<FilmColours>(scene(), moments, run_.run->clock(), start)
                    : nullptr;
@@ -137,7 +137,7 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
         const bool with_keys = true;
         const KeptList all(*run_.run, run_.run->known_scene(), run_.run->clock(), with_keys);
         const std::unique_ptr<FilmColours> film = coloured(all);
-        BedContacts contacts;
+        PageContacts contacts;
         contacts.film = film.get();
         contacts.touches = [&all](std::size_t index) { return all.touches(index); };
         contacts.keys = key_moments_of(all);
@@ -148,7 +148,7 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
         bed_news_.push_back(
             fmt::format("{}; the page has the moments of trajectory.nc alone", problem.what()));
         const std::unique_ptr<FilmColours> film = coloured(*run_.run);
-        BedContacts contacts;
+        PageContacts contacts;
         contacts.film = film.get();
         bed_ = bed_frames(*run_.run, most_bytes, progress, contacts);
     }

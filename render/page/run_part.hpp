@@ -68,7 +68,7 @@ class RunPart {
     PageFilm film_;
     std::vector<std::uint8_t> poster_;
     FilmTimes times_;
-    BedFrames bed_;
+    PageBed bed_;
     PageMeshes meshes_;
     std::vector<std::string> bed_news_;
     PageFields fields_;

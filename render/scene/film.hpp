@@ -276,10 +276,10 @@ struct CameraKey {
 
 // How much the automatic framing shows: all of the container, the bed at rest, or as high as the grains get
 // in the course of the film. The part of the container above that is cut off.
-enum class CameraFrame { container, bed, reach };
+enum class FramingScope { container, bed, reach };
 
 struct Camera {
-    CameraFrame frame = CameraFrame::reach;
+    FramingScope frame = FramingScope::reach;
     std::optional<double> reach;  // m above the floor's rest position; when empty it is estimated or measured
     double azimuth = 20;    // degrees about `up`: 0 looks along -x at the wide face, positive is to the right
     double elevation = 10;  // degrees above the horizon

@@ -84,7 +84,7 @@ void check_film(const FilmedScene& scene) {
         fail(scene, "film.exaggerate",
              "enlarges the container's motion, but nothing moves; add [drive] or take it out");
     const bool floor_only = scene.drive.moves == Drive::Moves::floor;
-    const bool wall_apart = std::any_of(scene.walls.begin(), scene.walls.end(), [](const FreeWall& wall) {
+    const bool wall_apart = std::any_of(scene.walls.begin(), scene.walls.end(), [](const ScenePlane& wall) {
         return !wall.moves || wall.velocity != Vec3(0, 0, 0);
     });
     const bool mesh_apart = std::any_of(scene.meshes.begin(), scene.meshes.end(),

@@ -15,8 +15,8 @@ namespace grainreel {
 
 inline const ChoiceWords<FilmLook::Style> style_words{
     {"studio", FilmLook::Style::studio}, {"flat", FilmLook::Style::flat}, {"dark", FilmLook::Style::dark}};
-inline const ChoiceWords<CameraFrame> camera_frame_words{
-    {"container", CameraFrame::container}, {"bed", CameraFrame::bed}, {"reach", CameraFrame::reach}};
+inline const ChoiceWords<FramingScope> camera_frame_words{
+    {"container", FramingScope::container}, {"bed", FramingScope::bed}, {"reach", FramingScope::reach}};
 inline const ChoiceWords<WordPlace> word_place_words{{"automatic", WordPlace::automatic},
                                                      {"gutters", WordPlace::gutters},
                                                      {"plates", WordPlace::plates},

@@ -24,8 +24,8 @@ namespace {
 constexpr double kSide = 0.1;  // m, of the box
 
 // Grains in layers that touch, every second one shifted by half a grain, so that many hide each other.
-Frame bed(int across, int layers) {
-    Frame frame;
+State bed(int across, int layers) {
+    State frame;
     const double apart = kSide / across, radius = 0.47 * apart;
     for (int k = 0; k < layers; ++k)
         for (int j = 0; j < across; ++j)
@@ -42,7 +42,7 @@ Frame bed(int across, int layers) {
     return frame;
 }
 
-FilmedScene box(const Frame& frame) {
+FilmedScene box(const State& frame) {
     FilmedScene scene;
     scene.film.width = 1920, scene.film.height = 1080;
     scene.film.words = WordPlace::none;
@@ -65,7 +65,7 @@ FilmedScene box(const Frame& frame) {
 }
 
 int measure(gl::Provider provider, int layers, int threads, int rounds, const char* out) {
-    const Frame frame = bed(layers >= 100 ? 50 : 20, layers);
+    const State frame = bed(layers >= 100 ? 50 : 20, layers);
     const FilmedScene scene = box(frame);
     Renderer renderer(scene, bare_layout(scene.film), threads, provider);
     Picture picture(1920, 1080);

@@ -73,8 +73,8 @@ FilmedScene scene_with(int n) {
     return scene;
 }
 
-Frame bed() {
-    Frame frame;
+State bed() {
+    State frame;
     const double apart = kSide / kAcross;
     for (int k = 0; k < kLayers; ++k)
         for (int j = 0; j < kAcross; ++j)
@@ -98,7 +98,7 @@ double processor_ms() {
 
 int measure(int triangles, int rounds) {
     const int n = static_cast<int>(std::lround(std::sqrt(triangles / 10.0)));
-    const Frame frame = bed();
+    const State frame = bed();
     std::array<std::unique_ptr<Renderer>, 2> renderers;
     std::array<std::vector<double>, 2> times;
     for (std::size_t k = 0; k < 2; ++k)

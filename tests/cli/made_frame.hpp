@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "engine/frame.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observers.hpp"
+#include "engine/state/state.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel::test {
@@ -16,8 +16,8 @@ inline Vec3 vector_of(double seed) {
     return {std::sin(seed), std::cos(3 * seed) * 1e-9, -std::exp(seed / 7)};
 }
 
-inline Frame made_frame(int grains, int number, bool orientation = false) {
-    Frame f;
+inline State made_frame(int grains, int number, bool orientation = false) {
+    State f;
     f.step = (std::int64_t{1} << 40) + number;  // more than 32 bits
     f.time = number / 3.0;
     f.cycles = number / 7.0;

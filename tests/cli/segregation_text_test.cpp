@@ -1,5 +1,5 @@
 // Tests of the line on segregation at the end of a run.
-#include "engine/run/folder/scene_folder_run.hpp"
+#include "engine/run/folder/scene_job.hpp"
 
 #include <gmock/gmock.h>
 

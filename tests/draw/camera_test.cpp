@@ -64,7 +64,7 @@ TEST(CameraPath, ASphereIsWhereTheFormulaHasIt) {
 TEST(CameraPath, AFullTurnEndsWhereItBegan) {
     const FilmedScene scene = orbiting();
     Renderer renderer(scene, 1);
-    const Frame frame = frame_of(wall_of_balls());
+    const State frame = frame_of(wall_of_balls());
     const Picture first = renderer.draw(frame, "", 0);
     const Picture half = renderer.draw(frame, "", 4);
     EXPECT_EQ(renderer.draw(frame, "", 8).rgba, first.rgba);
@@ -79,7 +79,7 @@ TEST(CameraPath, ATenthOfADegreeChangesColoursLittle) {
     scene.container.shape = Container::Shape::box;
     const CameraPath path(scene, plan_layout(scene));
     Renderer renderer(scene, 1);
-    const Frame frame = frame_of(wall_of_balls());
+    const State frame = frame_of(wall_of_balls());
     const Picture one = renderer.draw(frame, "", 0), other = renderer.draw(frame, "", 1);
     ASSERT_NE(one.rgba, other.rgba);
     for (const Vec3& at : frame.position) {

@@ -55,7 +55,7 @@ TEST(ContainerPicture, OscillatesByTheProjectedStroke) {
         Renderer renderer(scene, 1);
         for (const double phase : {0.0, 0.25, 0.5, 0.75}) {
             const Vec3 offset = scene.drive.amplitude * std::sin(2 * pi * phase) * scene.drive.direction;
-            Frame frame = frame_of({});
+            State frame = frame_of({});
             frame.phase = phase;
             frame.container().place = frame.floor().place = offset;
             const Picture& picture = renderer.draw(frame, "");
@@ -72,18 +72,18 @@ TEST(ContainerPicture, OscillatesByTheProjectedStroke) {
 // time.
 TEST(ContainerPicture, APlaneIsWhereItsBodyIs) {
     FilmedScene scene = level_box();
-    FreeWall plane;
+    ScenePlane plane;
     plane.point = Vec3(0, 0, 0.03);
     plane.normal = Vec3(0, 0.5, 1).normalized();
     plane.velocity = Vec3(0, 0, 0.5);
     scene.walls = {plane};
-    Frame frame = frame_of({});
+    State frame = frame_of({});
     frame.time = 0.1;
     frame.bodies.resize(kFirstPlaneBody + 1);
     frame.bodies.back().place = Vec3(0, 0, 0.01);
     FilmedScene higher = scene;
     higher.walls[0].point += frame.bodies.back().place;
-    Frame at_rest = frame;
+    State at_rest = frame;
     at_rest.bodies.back() = {};
     Renderer one(scene, 1), other(higher, 1);
     const Picture moved = one.draw(frame, ""), rests = one.draw(at_rest, "");
@@ -97,9 +97,9 @@ TEST(ContainerPicture, ExaggeratedGrainsStayInTheContainer) {
     scene.film.exaggerate = 5;
     const View view = view_of(scene);
     const Vec3 offset(0, 0, 0.006), resting(0, 0.01, 0.02);
-    Frame frame = frame_of({{resting + offset, 0.012, 1}});
+    State frame = frame_of({{resting + offset, 0.012, 1}});
     frame.container().place = frame.floor().place = offset;
-    Frame empty = frame_of({});
+    State empty = frame_of({});
     empty.container().place = empty.floor().place = offset;
     Renderer renderer(scene, 1);
     const Picture without = renderer.draw(empty, "");
@@ -138,7 +138,7 @@ TEST(ContainerPicture, TheGhostRests) {
             high = high.cwiseMax(view.project(corner));
         }
         for (const double offset : {-0.006, 0.004, 0.006}) {
-            Frame frame = frame_of({});
+            State frame = frame_of({});
             frame.container().place = frame.floor().place = {0, 0, offset};
             const Picture without = one.draw(frame, "");
             const test::Extent seen = changed(without, other.draw(frame, ""), view.port, 12);
@@ -165,8 +165,8 @@ FilmedScene seen_from_lid_height(Container::Shape shape, double above) {
     return scene;
 }
 
-Frame moved_to(double height, const std::vector<Ball>& balls) {
-    Frame frame = frame_of(balls);
+State moved_to(double height, const std::vector<Ball>& balls) {
+    State frame = frame_of(balls);
     frame.container().place = frame.floor().place = {0, 0, height};
     return frame;
 }
@@ -213,7 +213,7 @@ TEST(ContainerPicture, AFloorThatMovesAloneLeavesTheLid) {
     scene.drive.moves = Drive::Moves::floor;
     const View view = view_of(scene);
     Renderer renderer(scene, 1);
-    Frame frame = frame_of({});
+    State frame = frame_of({});
     const Picture rest = renderer.draw(frame, "");
     frame.floor().place = {0, 0, -0.006};
     const Picture& lowered = renderer.draw(frame, "");
@@ -227,7 +227,7 @@ TEST(ContainerPicture, FollowingHoldsTheContainerStill) {
     scene.film.camera.follow = true;
     const View view = view_of(scene);
     Renderer renderer(scene, 1);
-    Frame frame = frame_of({});
+    State frame = frame_of({});
     const double rest = lid_edge(renderer.draw(frame, ""), view.port);
     frame.container().place = frame.floor().place = {0, 0, 0.006};
     EXPECT_EQ(lid_edge(renderer.draw(frame, ""), view.port), rest);

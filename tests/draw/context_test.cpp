@@ -21,7 +21,7 @@ namespace {
 
 using gl::EglPlatform, gl::Provider;
 
-Frame heap() {
+State heap() {
     std::mt19937 random(11);
     const auto between = [&](double a, double b) {
         return a + (b - a) * static_cast<double>(random()) / 4294967296.0;
@@ -114,7 +114,7 @@ TEST(Context, ARendererThatGoesTakesNothingFromTheOneInUse) {
     auto gone = std::make_unique<Renderer>(wedge(), 1, Provider::automatic);
     Renderer one(wedge(), 1, Provider::automatic), other(wedge(), 1, Provider::automatic);
     gone->draw(heap(), "");
-    Frame moved = heap();
+    State moved = heap();
     moved.container().place = {0, 0, 0.03};
     const Picture expected = other.draw(moved, "");
     one.draw(heap(), "");

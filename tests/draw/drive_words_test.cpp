@@ -28,7 +28,7 @@ FilmedScene changing() {
 }
 
 std::vector<std::string> lines_at(const FilmedScene& scene, double time) {
-    Frame frame;
+    State frame;
     frame.time = time;
     frame.cycles = DriveSchedule(scene.drive).times().cycles(time);
     return drive_lines(scene, frame);
@@ -51,7 +51,7 @@ TEST(DriveWords, GrowWithTheDriveAtFirst) {
     scene.drive.ramp = 4;
     scene.drive.amplitude = amplitude_of(3, 20);
     const auto at = [&](double cycles) {
-        Frame frame;
+        State frame;
         frame.time = cycles / 20;
         frame.cycles = cycles;
         return drive_lines(scene, frame);
@@ -75,7 +75,7 @@ TEST(CaptionWords, AreThereInTheirTime) {
     FilmedScene scene = wedge();
     scene.film.captions = {{1, 2, "one", 0}, {2, 3, "two", 0}};
     const auto at = [&](double time) {
-        Frame frame;
+        State frame;
         frame.time = time;
         return note_text(scene, frame);
     };

@@ -20,7 +20,7 @@ FilmedScene with_field() {
 }
 
 // The pixel of the layer where a place of its plane is seen. Its alpha is 0 where the layer has no cell.
-Shapes::Vertex seen_at(const FilmedScene& scene, const Frame& frame, const Vec3& place) {
+Shapes::Vertex seen_at(const FilmedScene& scene, const State& frame, const Vec3& place) {
     Shapes shapes;
     const View view = view_of(scene);
     FieldLayer(scene).draw(view, frame, shapes);
@@ -44,7 +44,7 @@ void expect_colour(const Shapes::Vertex& vertex, const Colour& colour) {
 TEST(FieldLayer, HasTheColourOfTheGrainsThatAreNear) {
     const FilmedScene scene = with_field();
     const Vec3 left(0, -0.04, 0.1), right(0, 0.04, 0.1);
-    Frame frame = frame_of({{left}, {right}});
+    State frame = frame_of({{left}, {right}});
     frame.velocity = {Vec3(0, 0, 0.5), Vec3(0, 0, -0.5)};
     const ColourScale scale(scene.film.shows.colour);
     expect_colour(seen_at(scene, frame, left), scale.at(0.5));
@@ -55,7 +55,7 @@ TEST(FieldLayer, HasTheColourOfTheGrainsThatAreNear) {
 TEST(FieldLayer, MeanIsWeightedByMass) {
     const FilmedScene scene = with_field();
     const Vec3 place(0, 0, 0.08);
-    Frame frame = frame_of({{place, 0.005}, {place, 0.010}});
+    State frame = frame_of({{place, 0.005}, {place, 0.010}});
     frame.velocity = {Vec3(0, 0, -0.9), Vec3(0, 0, 0.45)};
     const ColourScale scale(scene.film.shows.colour);
     expect_colour(seen_at(scene, frame, place), scale.at((8 * 0.45 - 0.9) / 9));
@@ -102,10 +102,10 @@ TEST(FieldLayer, EndsAtTheWalls) {
 TEST(FieldLayer, GoesWithTheContainer) {
     const FilmedScene scene = with_field();
     const Vec3 place(0, 0, 0.08), moved(0, 0, 0.004);
-    Frame frame = frame_of({{place + moved}});
+    State frame = frame_of({{place + moved}});
     frame.velocity = {Vec3(0, 0, 0.5)};
     frame.container().place = moved;
-    Frame still = frame_of({{place}});
+    State still = frame_of({{place}});
     still.velocity = frame.velocity;
     Shapes one, other;
     FieldLayer layer(scene);
@@ -120,7 +120,7 @@ TEST(FieldLayer, GoesWithTheContainer) {
 
 TEST(FieldLayer, CoversPaleGrainsInThePicture) {
     FilmedScene scene = with_field();
-    Frame frame = frame_of({{Vec3(0, 0, 0.08), 0.010}});
+    State frame = frame_of({{Vec3(0, 0, 0.08), 0.010}});
     frame.velocity = {Vec3(0, 0, 1)};
     Renderer with(scene, 1);
     const Picture layer = with.draw(frame, "");

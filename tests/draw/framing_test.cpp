@@ -12,9 +12,9 @@
 namespace grainreel::test {
 namespace {
 
-using enum CameraFrame;
+using enum FramingScope;
 
-FilmedScene framed(CameraFrame frame, Container::Shape shape = Container::Shape::box, int width = 1280,
+FilmedScene framed(FramingScope frame, Container::Shape shape = Container::Shape::box, int width = 1280,
                    int height = 720) {
     FilmedScene scene = wedge(width, height);
     scene.container.shape = shape;

@@ -247,7 +247,7 @@ TEST(GoldenContainers, GrainsThroughWalls) {
     scene.container.half_width = 0.05;
     scene.container.height = 0.08;
     scene.container.depth = 0.06;
-    FreeWall chute;
+    ScenePlane chute;
     chute.point = Vec3(0, 0, 0.03);
     chute.normal = Vec3(0, 0.4, 1).normalized();
     scene.walls = {chute};

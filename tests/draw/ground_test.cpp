@@ -28,7 +28,7 @@ struct Shadow {
     double middle, width, cell;
 };
 Shadow shadow_of_plate(const FilmedScene& scene, const BodyPose& floor) {
-    Frame frame = frame_of({});
+    State frame = frame_of({});
     frame.container() = frame.floor() = floor;
     ShadowMap map(scene);
     map.cast(frame, straight_down);
@@ -85,7 +85,7 @@ TEST(Ground, HasTheShadowOfAPlateThatHasTurned) {
     FilmedScene scene = box_on_ground({0, 0, 1}, 1);
     scene.drive.present = false;
     scene.container.turn = BodyTurn{.axis = {1, 0, 0}, .through = {0, 0, 0.05}, .rate = pi / 3};
-    const BodyPose floor = bodies_of(scene)[kFloorBody].at(Pose{.time = 1});
+    const BodyPose floor = bodies_of(scene)[kFloorBody].at(DrivePose{.time = 1});
     const double thick = 1.4 * drawn_thickness(scene.container);
     const Shadow shadow = shadow_of_plate(scene, floor);
     EXPECT_NEAR(shadow.middle, floor.moved({0, 0, -0.5 * thick}).y(), 1.5 * shadow.cell);

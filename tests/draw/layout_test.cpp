@@ -19,7 +19,7 @@ struct Content {
 
 FilmedScene scene_of(int width, int height, const Content& content) {
     FilmedScene scene = wedge(width, height);
-    scene.film.camera.frame = CameraFrame::reach;
+    scene.film.camera.frame = FramingScope::reach;
     scene.film.title = "Big and small grains in a vibrated wedge hopper";
     set_species(scene, {});
     for (std::size_t k = 0; k < content.species; ++k)
@@ -107,7 +107,7 @@ TEST(Layout, NothingLiesOnAnythingElse) {
 TEST(Layout, AWideBoxStandsBetweenWordsAboveAndBelow) {
     FilmedScene scene = scene_of(1280, 720, {0, 2});
     scene.film.camera.azimuth = 0;
-    scene.film.camera.frame = CameraFrame::container;
+    scene.film.camera.frame = FramingScope::container;
     scene.container.shape = Container::Shape::box;
     scene.container.half_width = 0.03;
     EXPECT_FALSE(plan_layout(scene).stacked);

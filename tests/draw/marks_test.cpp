@@ -82,8 +82,8 @@ TEST(Plots, TheMarkerIsWhereTheLastRowIs) {
     }
 }
 
-PlotFrame any_plot() {
-    PlotFrame frame;
+PlotRange any_plot() {
+    PlotRange frame;
     frame.column = "lacey";
     frame.label = "mixing";
     frame.time = {0, 10};
@@ -149,7 +149,7 @@ TEST(Plots, AxesOfWhatCannotBeNegativeBeginAtZero) {
                              {{0, 0.04}, {1, 0.02}, {2, 0.03}},
                              {{0, 5}, {1, 5.1}},
                              {{0, 0}}}) {
-        PlotFrame frame = any_plot();
+        PlotRange frame = any_plot();
         frame.from_zero = true;
         Plot plot(frame, type, make_palette(scene.film.background));
         plot.take(frame_with_rows(rows));
@@ -165,7 +165,7 @@ TEST(Plots, TheUnitIsThatOfWhatIsExpected) {
     const FilmedScene scene = wedge(1280, 720);
     const TypeScale type = type_scale(scene.film);
     const auto title = [&](double expected, const std::vector<std::array<double, 2>>& rows) {
-        PlotFrame frame = any_plot();
+        PlotRange frame = any_plot();
         frame.dimension = Dimension::mass;
         frame.from_zero = true;
         frame.expected = expected;
@@ -189,7 +189,7 @@ TEST(Plots, TheUnitIsThatOfWhatIsExpected) {
 // There are four rows a period, which vary by 1 about the number of the period.
 TEST(Plots, MeansOfAPeriodHaveNoSwing) {
     const FilmedScene scene = wedge(1280, 720);
-    PlotFrame shown = any_plot();
+    PlotRange shown = any_plot();
     shown.smooth = true;
     shown.range = std::array<double, 2>{-1, 3};
     Plot plot(shown, type_scale(scene.film), make_palette(scene.film.background));
@@ -243,7 +243,7 @@ TEST(Plots, ThePictureDependsOnTheRowsAlone) {
 
 // The pixels of a plot of those rows, with values from 0 to 1 over 10 s.
 std::vector<std::uint32_t> drawn_plot(const std::vector<std::array<double, 2>>& rows, double x_of_time) {
-    PlotFrame frame = any_plot();
+    PlotRange frame = any_plot();
     frame.range = std::array<double, 2>{0, 1};
     const Palette palette = make_palette(wedge().film.background);
     Plot plot(frame, type_scale(wedge(1280, 720).film), palette);

@@ -78,7 +78,7 @@ int pixels_like(const Picture& picture, const Rectangle& port, const Colour& col
 // Grain 0 stands before grain 1, which is pointed out.
 TEST(PointForces, ThePictureShowsTheGrainThroughPaleOnesAndItsArrows) {
     const FilmedScene scene = straight_on();
-    const Frame frame =
+    const State frame =
         frame_of({{{0.015, 0, 0.08}, 0.008, 0}, {{-0.01, 0, 0.08}, 0.008, 1}, {{0, 0.04, 0.08}, 0.008, 0}});
     const View view = view_of(scene);
     const auto at = [&](const Picture& picture, const Vec3& place) {

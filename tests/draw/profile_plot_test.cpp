@@ -24,11 +24,11 @@ FilmPlot plot_of(ProfileOf profile, bool across) {
 FilmedScene boxed() {
     FilmedScene scene = wedge();
     scene.container.shape = Container::Shape::box;
-    scene.film.camera.frame = CameraFrame::container;
+    scene.film.camera.frame = FramingScope::container;
     return scene;
 }
 
-Picture drawn(const FilmedScene& scene, const FilmPlot& plot, const Frame& frame) {
+Picture drawn(const FilmedScene& scene, const FilmPlot& plot, const State& frame) {
     const Palette palette = make_palette({1, 1, 1});
     ProfilePlot profile(scene, plot, width, height, type_scale(scene.film), palette);
     EXPECT_TRUE(profile.take(frame));
@@ -56,7 +56,7 @@ bool has_hue(const Picture& picture, const std::array<double, 2>& at, double wan
 }
 
 // A bed whose lower half is full of the first species and whose upper half is full of the second one.
-Frame two_layers(bool upright) {
+State two_layers(bool upright) {
     std::vector<Ball> balls;
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 30; ++j)
@@ -131,7 +131,7 @@ TEST(ProfilePlots, VelocitiesFollowTheFrame) {
     const FilmedScene scene = boxed();
     FilmPlot plot = plot_of(ProfileOf::vertical_velocity, true);
     plot.range = std::array<double, 2>{-0.2, 0.2};
-    Frame frame = two_layers(false);
+    State frame = two_layers(false);
     const auto moving = [&](double speed) {
         for (Vec3& velocity : frame.velocity) velocity = Vec3(0, 0, speed);
         return drawn(scene, plot, frame);

@@ -20,7 +20,7 @@ FilmedScene rough(std::vector<std::string> faces) {
 }
 
 std::size_t seen_of(const FilmedScene& scene) {
-    return GluedSpheres(scene).seen(view_of(scene), Frame()).size();
+    return GluedSpheres(scene).seen(view_of(scene), State()).size();
 }
 
 // Glued grains between the eye and the bed would hide the bed.
@@ -40,10 +40,10 @@ TEST(GluedSpheres, AreSeenWhereTheEyeLooksAtTheInnerSide) {
 TEST(GluedSpheres, MoveWithTheirWall) {
     for (const bool floor : {false, true}) {
         const FilmedScene scene = rough({floor ? "floor" : "back"});
-        Frame frame;
+        State frame;
         (floor ? frame.floor() : frame.container()).place = Vec3(0, 0, 0.013);
         const GluedSpheres spheres(scene);
-        const auto before = spheres.seen(view_of(scene), Frame()), now = spheres.seen(view_of(scene), frame);
+        const auto before = spheres.seen(view_of(scene), State()), now = spheres.seen(view_of(scene), frame);
         ASSERT_EQ(now.size(), before.size());
         for (std::size_t k = 0; k < now.size(); ++k)
             EXPECT_LT((now[k].centre - before[k].centre - Vec3(0, 0, 0.013)).norm(), 1e-12);
@@ -56,10 +56,10 @@ TEST(GluedSpheres, AreDrawn) {
     FilmedScene plain = scene;
     plain.container.wall_grains.reset();
     Renderer with(scene, 1), without(plain, 1);
-    const Picture a = with.draw(Frame(), "", 0), b = without.draw(Frame(), "", 0);
+    const Picture a = with.draw(State(), "", 0), b = without.draw(State(), "", 0);
     const View view = with.view();
     std::size_t differ = 0, checked = 0;
-    for (const GluedSpheres::Seen& one : GluedSpheres(scene).seen(view, Frame())) {
+    for (const GluedSpheres::Seen& one : GluedSpheres(scene).seen(view, State())) {
         const Eigen::Vector2d at = view.project(one.centre);
         const int x = view.port.x + static_cast<int>(at.x()), y = view.port.y + static_cast<int>(at.y());
         if (x < 0 || y < 0 || x >= a.width || y >= a.height) continue;

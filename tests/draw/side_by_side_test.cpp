@@ -404,14 +404,14 @@ TEST(SideBySide, OneRangeOfColoursHoldsInAllPanels) {
 TEST(SideBySide, PanelsFrameOneHeight) {
     std::vector<FilmedScene> scenes = {scene_with(0.06, 2), scene_with(0.06, 5)};
     for (FilmedScene& scene : scenes) {
-        scene.film.camera.frame = CameraFrame::reach;
+        scene.film.camera.frame = FramingScope::reach;
         scene.container.height = 0.5;
     }
     std::vector<Panel> panels = panels_of(scenes);
     ASSERT_LT(*estimated_reach(scenes[0]), *estimated_reach(scenes[1]));
     share_reach(panels);
     for (const Panel& panel : panels) EXPECT_EQ(framed_part(panel.scene).top, framed_part(scenes[1]).top);
-    panels[0].scene.film.camera.frame = CameraFrame::container;  // the panel's own scene asks for it
+    panels[0].scene.film.camera.frame = FramingScope::container;  // the panel's own scene asks for it
     panels[1].scene.film.camera.reach.reset();
     share_reach(panels);
     EXPECT_FALSE(panels[1].scene.film.camera.reach);

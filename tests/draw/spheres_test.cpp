@@ -92,7 +92,7 @@ TEST(Spheres, TheNearerOneHidesTheFarther) {
     const Vec3 at(0, 0, 0.09);
     const Vec3 behind = at + 0.01 * (at - view.eye).normalized();
     Renderer renderer(scene, 1);
-    const Frame alone = frame_of({{at, 0.008, 1}});
+    const State alone = frame_of({{at, 0.008, 1}});
     for (const bool first : {true, false}) {
         // The order of grains in the frame does not matter.
         const Ball front{at, 0.008, 1}, back{behind, 0.004, 0};
@@ -174,7 +174,7 @@ TEST(Spheres, EdgesBetweenGrainsAreSmooth) {
     const Vec3 at(0, 0, 0.1);
     Renderer renderer(scene, 1);
     const double radius = 0.008;
-    const Frame frame = frame_of({{at - 0.04 * view.forward, radius, 0}, {at, 0.03, 1}});
+    const State frame = frame_of({{at - 0.04 * view.forward, radius, 0}, {at, 0.03, 1}});
     const Picture& picture = renderer.draw(frame, "");
     const Pixel centre = view.project(at);
     int partly = 0;

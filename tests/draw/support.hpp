@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/container_drawing.hpp"
@@ -56,7 +56,7 @@ inline FilmedScene wedge(int width = 640, int height = 360) {
     c.height = 0.16;
     c.half_angle = 20 * pi / 180;
     c.slant_height = 0.1;
-    scene.film.camera.frame = CameraFrame::container;
+    scene.film.camera.frame = FramingScope::container;
     scene.film.look.ground = false;  // its shadow moves where walls are measured
     scene.drive.present = true;
     scene.drive.frequency = 20;
@@ -78,8 +78,8 @@ struct Ball {
     int species = 0;
 };
 
-inline Frame frame_of(const std::vector<Ball>& balls) {
-    Frame frame;
+inline State frame_of(const std::vector<Ball>& balls) {
+    State frame;
     for (const Ball& ball : balls) {
         frame.id.push_back(static_cast<std::int32_t>(frame.id.size()));
         frame.species.push_back(ball.species);

@@ -72,7 +72,7 @@ TEST(WallForces, OfAContainerThatTurnsActWhereTheWallIsNow) {
     scene.film.camera.field_of_view = scene.film.camera.azimuth = scene.film.camera.elevation = 0;
     scene.film.shows.wall_forces = {true, 4};
     const BodyPose pose =
-        bodies_of(scene)[kContainerBody].at(Pose{.offset = Vec3(0, 0.001, 0.002), .time = 1});
+        bodies_of(scene)[kContainerBody].at(DrivePose{.offset = Vec3(0, 0.001, 0.002), .time = 1});
     const Vec3 acts = pose.moved({0.01, -scene.container.half_width, 0.07});
     const Extent seen =
         arrow_of(scene, "left_wall", {0, 0, -2}, acts, pose.moved(scene.container.turn->through), pose);
@@ -90,7 +90,7 @@ TEST(WallForces, OfADrumOnItsSideActUnderTheBed) {
     scene.container.turn = BodyTurn{.rate = 1};
     scene.film.camera.field_of_view = scene.film.camera.azimuth = scene.film.camera.elevation = 0;
     scene.film.shows.wall_forces = {true, 4};
-    const BodyPose pose = bodies_of(scene)[kContainerBody].at(Pose{.time = 2});
+    const BodyPose pose = bodies_of(scene)[kContainerBody].at(DrivePose{.time = 2});
     const Vec3 acts(0, -scene.container.half_width, 0.05), force(0, -2, 0);
     const View view = view_of(scene);
     scene.gravity = {0, -9.81, 0};

@@ -30,7 +30,7 @@ double meet(const RayOfSight& ray, const Ball& ball) {
                  c = from.squaredNorm() - ball.radius * ball.radius;
     return b * b < a * c ? kFar : (-b - std::sqrt(b * b - a * c)) / a;
 }
-double meet(const RayOfSight& ray, const FreeWall& wall) {
+double meet(const RayOfSight& ray, const ScenePlane& wall) {
     return wall.normal.dot(wall.point - ray.from) / wall.normal.dot(ray.along);
 }
 
@@ -53,7 +53,7 @@ FilmedScene leaning_wall(double field_of_view, const Vec3& normal) {
     scene.start.grains.resize(2);  // the wall is drawn as far as these grains
     scene.start.grains[0].position = Vec3(-0.05, -0.05, 0);
     scene.start.grains[1].position = Vec3(0.05, 0.05, 0.1);
-    FreeWall wall;
+    ScenePlane wall;
     wall.point = Vec3(0, 0, 0.05);
     wall.normal = normal.normalized();
     scene.walls = {wall};
@@ -118,7 +118,7 @@ TEST(WallOrder, GlassTintsOnlyWhatIsBehindIt) {
     const View view = view_of(scene);
     Renderer with(scene, 1);
     const Picture glass = with.draw(frame_of({}), ""), picture = with.draw(frame_of({kThrough}), "");
-    const FreeWall wall = scene.walls[0];
+    const ScenePlane wall = scene.walls[0];
     scene.walls.clear();
     Renderer without(scene, 1);
     const Picture plain = without.draw(frame_of({}), ""), bare = without.draw(frame_of({kThrough}), "");
@@ -182,7 +182,7 @@ TEST(WallOrder, GrainsInsideAreLeftAlone) {
         scene.film.camera.azimuth = azimuth;
         const View view = view_of(scene);
         ContainerShapes shapes;
-        const Frame frame = frame_of({{{0.0195, 0, 0.003}, 0.003},
+        const State frame = frame_of({{{0.0195, 0, 0.003}, 0.003},
                                       {{-0.017, 0.03, 0.003}, 0.003},
                                       {{0.0, scene.container.half_width - 0.003, 0.13}, 0.003}});
         draw_container(scene, {view, view, false}, frame, make_palette(scene.film.background), 360, shapes);

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "engine/handover/decks.hpp"
-#include "engine/run/simulation/simulation.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
+#include "engine/state/drive_motion.hpp"
 #include "tests/engines/handed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 
 Course read_theirs(const std::filesystem::path& folder, PeerEngine engine, const CarriedScene& carried) {
     Course course;
-    const WallMotion motion(carried.scene.drive, carried.plan.clock);
+    const DriveMotion motion(carried.scene.drive, carried.plan.clock);
     for (const auto& [their_step, rows] : frames_of(engine, folder)) {
         const std::int64_t step = their_step - carried.shift();
         Moment now;
@@ -33,11 +33,11 @@ Course read_theirs(const std::filesystem::path& folder, PeerEngine engine, const
 
 Course run_ours(const CarriedScene& carried) {
     Course course;
-    Simulation run(carried.scene, carried.plan, 1);
+    SimulatedBed run(carried.scene, carried.plan, 1);
     run.pack();
     for (const std::int64_t step : carried.dumps) {
         run.advance(step);
-        const Frame frame = run.frame();
+        const State frame = run.frame();
         Moment now;
         now.time = frame.time;
         now.species.assign(frame.species.begin(), frame.species.end());
@@ -64,7 +64,7 @@ BothCourses run_both(const std::string& text, const CarryRequest& request) {
     BothCourses both;
     both.carried = hand_over(text, request, folder.path());
     both.failure =
-        run_engine(EngineJob(request.engine, request.ranks, deck_name(request.engine)), folder.path());
+        run_engine(PeerProcess(request.engine, request.ranks, deck_name(request.engine)), folder.path());
     both.theirs = read_theirs(folder.path(), request.engine, both.carried);
     both.ours = run_ours(both.carried);
     return both;

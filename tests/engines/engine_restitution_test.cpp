@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/handover/decks.hpp"
-#include "engine/handover/engine_job.hpp"
+#include "engine/handover/peer_process.hpp"
 #include "tests/engines/handed.hpp"
 #include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -70,10 +70,10 @@ Impacts impacts(PeerEngine engine, double speed, const std::string& law) {
     request.engine = engine;
     request.accept_law = true;  // of the tangential law, which is of no matter here
     hand_over(scene_text(speed, law), request, folder.path());
-    EXPECT_EQ(run_engine(EngineJob(engine, 1, deck_name(engine)), folder.path()), "");
+    EXPECT_EQ(run_engine(PeerProcess(engine, 1, deck_name(engine)), folder.path()), "");
     const auto frames = frames_of(engine, folder.path());
     if (frames.empty() || frames.rbegin()->second.size() != 8) return {};
-    const Frame& last = frames.rbegin()->second;
+    const State& last = frames.rbegin()->second;
     const auto apart = [&](std::size_t k) { return (last.velocity[k + 1] - last.velocity[k]).y() / speed; };
     return {apart(0), apart(2), apart(4), last.velocity[6].z() / speed, last.velocity[7].z() / speed};
 }

@@ -33,17 +33,17 @@ class EngineGoesOn : public testing::TestWithParam<PeerEngine> {
         CarryRequest request;
         request.engine = engine;
         hand_over(turning_box(restitution, friction), request, folder.path());
-        EXPECT_EQ(run_engine(EngineJob(engine, 1, deck_name(engine)), folder.path()), "");
+        EXPECT_EQ(run_engine(PeerProcess(engine, 1, deck_name(engine)), folder.path()), "");
         const auto whole = frames_of(engine, folder.path());
         EXPECT_EQ(newest_restart(folder.path(), engine), 5000);
 
         trim_dump(folder / dump_name(engine), 3000);
         EXPECT_EQ(frames_of(engine, folder.path()).rbegin()->first, 3000);
         const std::string restart = fmt::format("{}.3000", restart_name(engine));
-        EXPECT_EQ(run_engine(EngineJob(engine, 1, deck_name(engine), restart), folder.path()), "");
+        EXPECT_EQ(run_engine(PeerProcess(engine, 1, deck_name(engine), restart), folder.path()), "");
         const auto again = frames_of(engine, folder.path());
         EXPECT_EQ(again.size(), whole.size());
-        const Frame &then = whole.at(3250), &now = again.at(3250);
+        const State &then = whole.at(3250), &now = again.at(3250);
         EXPECT_EQ(then.size(), 60u);
         double most = 0;
         for (std::size_t i = 0; i < then.size(); ++i)

@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "engine/handover/decks.hpp"
-#include "engine/handover/engine_job.hpp"
 #include "engine/handover/handover_folder.hpp"
+#include "engine/handover/peer_process.hpp"
 #include "engine/handover/start_state.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -51,16 +51,16 @@ CarriedScene hand_over(const std::string& text, const CarryRequest& request,
     return carried;
 }
 
-std::string run_engine(EngineJob job, const std::filesystem::path& folder) {
+std::string run_engine(PeerProcess job, const std::filesystem::path& folder) {
     job.start(folder);
     while (job.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return job.failure();
 }
 
-std::map<std::int64_t, Frame> frames_of(PeerEngine engine, const std::filesystem::path& folder) {
-    std::map<std::int64_t, Frame> all;
+std::map<std::int64_t, State> frames_of(PeerEngine engine, const std::filesystem::path& folder) {
+    std::map<std::int64_t, State> all;
     DeckDump dump(folder / dump_name(engine));
-    while (std::optional<Frame> rows = dump.next()) {
+    while (std::optional<State> rows = dump.next()) {
         const std::int64_t step = rows->step;
         all[step] = std::move(*rows);
     }

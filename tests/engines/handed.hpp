@@ -9,7 +9,7 @@
 
 #include "engine/handover/carry.hpp"
 #include "engine/handover/deck_dump.hpp"
-#include "engine/handover/engine_job.hpp"
+#include "engine/handover/peer_process.hpp"
 
 namespace grainreel {
 
@@ -34,10 +34,10 @@ CarriedScene hand_over(const std::string& text, const CarryRequest& request,
                        const std::filesystem::path& folder);
 
 // Runs the engine there until it ends, and returns what it complained of, or nothing.
-std::string run_engine(EngineJob job, const std::filesystem::path& folder);
+std::string run_engine(PeerProcess job, const std::filesystem::path& folder);
 
 // All frames of the dump in the folder, by the engine's step.
-std::map<std::int64_t, Frame> frames_of(PeerEngine engine, const std::filesystem::path& folder);
+std::map<std::int64_t, State> frames_of(PeerEngine engine, const std::filesystem::path& folder);
 
 // For tests and their SetUp(): skips where the engine is missing. Under `./test --peers`, which is for these
 // tests and installs the engines, that is a failure.

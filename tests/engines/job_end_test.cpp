@@ -12,7 +12,7 @@
 
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/decks.hpp"
-#include "engine/handover/engine_job.hpp"
+#include "engine/handover/peer_process.hpp"
 #include "tests/engines/handed.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "engine/run/simulation/simulation.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
+#include "engine/state/drive_motion.hpp"
 #include "tests/engines/handed.hpp"
 #include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 struct ScriptRun {
     CarriedScene carried;
-    std::map<std::int64_t, Frame> dump;
+    std::map<std::int64_t, State> dump;
     int status = 0;
     std::string words;  // of the engine
 };
@@ -64,11 +64,11 @@ TEST(OnLammps, AFreeGrainFallsFreelyInTheFrameOfItsContainer) {
                                "1, 2]\nramp = 0\nphase = 0.2\n",
                                "4 ms"));
     ASSERT_EQ(run.status, 0) << run.words;
-    ASSERT_EQ(run.carried.frame, RunFrame::container);
-    const WallMotion walls(run.carried.scene.drive, run.carried.plan.clock);
+    ASSERT_EQ(run.carried.frame, ReferenceFrame::container);
+    const DriveMotion walls(run.carried.scene.drive, run.carried.plan.clock);
     ASSERT_GE(run.dump.size(), 10u);
     for (const auto& [step, grains] : run.dump) {
-        const Pose pose = walls.at(step);
+        const DrivePose pose = walls.at(step);
         const double t = pose.time;
         const Vec3 lab = grains.position.at(0) + pose.offset;
         EXPECT_NEAR((lab - Vec3(0, 0, 0.05 - 9.81 * t * t / 2)).norm(), 0, 1e-7) << t;
@@ -126,9 +126,9 @@ void expect_sound(const std::string& text, std::size_t grains = 100) {
     const auto& last = run.dump.rbegin()->second;
     EXPECT_EQ(last.size(), grains);
     // Overlaps stay far below the radius.
-    const WallMotion walls(run.carried.scene.drive, run.carried.plan.clock);
-    Pose pose = walls.at(run.dump.rbegin()->first);
-    if (run.carried.frame == RunFrame::container) pose = Pose();
+    const DriveMotion walls(run.carried.scene.drive, run.carried.plan.clock);
+    DrivePose pose = walls.at(run.dump.rbegin()->first);
+    if (run.carried.frame == ReferenceFrame::container) pose = DrivePose();
     for (std::size_t i = 0; i < last.size(); ++i)
         for (const Face& face : run.carried.faces)
             EXPECT_GT(distance_at(face, pose, last.position[i]).distance, 0.0019 * 0.9)
@@ -166,7 +166,7 @@ TEST(OnLammps, AnOutletOpensAndLetsAsManyGrainsOutAsOurs) {
                           "outlet = { width = \"14 mm\", opens = \"20 ms\", exit_depth = \"20 mm\" }\n"));
     ASSERT_EQ(run.status, 0) << run.words;
     EXPECT_EQ(run.dump.begin()->second.size(), 100u);
-    Simulation ours(run.carried.scene, run.carried.plan, 1);
+    SimulatedBed ours(run.carried.scene, run.carried.plan, 1);
     ours.pack();
     ours.advance(run.carried.last);
     const auto left = static_cast<double>(run.dump.rbegin()->second.size());

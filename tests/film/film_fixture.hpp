@@ -112,17 +112,17 @@ inline Picture noise(int width, int height, int number) {
 // Draws the picture that `paint` gives for a frame.
 class PaintingDrawer final : public Drawer {
   public:
-    explicit PaintingDrawer(std::function<Picture(const Frame&)> paint) : paint_(std::move(paint)) {}
+    explicit PaintingDrawer(std::function<Picture(const State&)> paint) : paint_(std::move(paint)) {}
     void draw(const Shots& frames, const std::string&, Picture& into) override {
         into = paint_(*frames.front());
     }
     std::string description() const override { return "painted"; }
 
   private:
-    std::function<Picture(const Frame&)> paint_;
+    std::function<Picture(const State&)> paint_;
 };
 
-inline DrawerMaker painting(std::function<Picture(const Frame&)> paint) {
+inline DrawerMaker painting(std::function<Picture(const State&)> paint) {
     return [paint = std::move(paint)] { return std::make_unique<PaintingDrawer>(paint); };
 }
 

@@ -34,7 +34,7 @@ class FilmMakerTest : public FilmTest {
     int poster_grey() const { return read_png(folder / "poster.png").picture.pixel(10, 10)[0]; }
 
     static DrawerMaker greys() {
-        return painting([](const Frame& frame) {
+        return painting([](const State& frame) {
             const int grey = grey_of(frame.step);
             return flat(96, 64, grey, grey, grey);
         });
@@ -51,7 +51,7 @@ class FilmMakerTest : public FilmTest {
 TEST_F(FilmMakerTest, EveryFrameIsInTheFilmInOrderFirstAndLastAsDrawn) {
     constexpr int count = 150;
     FilmMaker maker(small_scene(160, 96), options(),
-                    painting([](const Frame& frame) { return ball(160, 96, static_cast<int>(frame.step)); }));
+                    painting([](const State& frame) { return ball(160, 96, static_cast<int>(frame.step)); }));
     for (int i = 0; i < count; ++i) maker.take(shot_at(i), "real time");
     const FilmResult result = maker.finish();
     EXPECT_EQ(result.frames, count);
@@ -89,7 +89,7 @@ TEST_F(FilmMakerTest, StandsStillWhereACaptionBegins) {
 
 TEST_F(FilmMakerTest, AFilmThatFlashesSaysSo) {
     for (const int every : {3, 8}) {  // frames, at 25 a second: 4.2 and 1.6 flashes
-        FilmMaker maker(small_scene(96, 64), options(), painting([every](const Frame& frame) {
+        FilmMaker maker(small_scene(96, 64), options(), painting([every](const State& frame) {
                             const int grey = frame.step / every % 2 ? 60 : 200;
                             return flat(96, 64, grey, grey, grey);
                         }));
@@ -103,7 +103,7 @@ TEST_F(FilmMakerTest, AFilmThatFlashesSaysSo) {
 TEST_F(FilmMakerTest, ASlowDrawerMakesTheEngineWaitAndLosesNothing) {
     constexpr int count = 60;
     std::atomic<int> alive = 0;
-    FilmMaker maker(small_scene(), options(), painting([](const Frame& frame) {
+    FilmMaker maker(small_scene(), options(), painting([](const State& frame) {
                         std::this_thread::sleep_for(std::chrono::milliseconds(2));
                         const int grey = grey_of(frame.step);
                         return flat(96, 64, grey, grey, grey);
@@ -193,7 +193,7 @@ TEST_F(FilmMakerTest, WhoIsInAHurryLeavesAFilmOfTheLengthThatIsTold) {
         FilmedScene scene = small_scene();
         scene.film.format = format;
         std::atomic<bool> hurry = false;
-        FilmMaker maker(scene, options(), painting([&](const Frame& frame) {
+        FilmMaker maker(scene, options(), painting([&](const State& frame) {
                             // The last picture is being drawn when it is no longer wanted.
                             if (frame.step == 39) {
                                 hurry = true;
@@ -285,7 +285,7 @@ std::string failure_of(FilmMaker& maker, int most = 10'000) {
 }
 
 TEST_F(FilmMakerTest, AFailureOfDrawingReachesTheEngineInItsWords) {
-    FilmMaker maker(small_scene(), options(), painting([](const Frame& frame) {
+    FilmMaker maker(small_scene(), options(), painting([](const State& frame) {
                         if (frame.step == 70) throw std::runtime_error("the lamp broke");
                         return flat(96, 64, 9, 9, 9);
                     }));
@@ -293,7 +293,7 @@ TEST_F(FilmMakerTest, AFailureOfDrawingReachesTheEngineInItsWords) {
 }
 
 TEST_F(FilmMakerTest, AFailureAfterTheLastFrameReachesFinish) {
-    FilmMaker maker(small_scene(), options(), painting([](const Frame& frame) {
+    FilmMaker maker(small_scene(), options(), painting([](const State& frame) {
                         if (frame.step == 2) throw std::runtime_error("the lamp broke");
                         return flat(96, 64, 9, 9, 9);
                     }));
@@ -310,7 +310,7 @@ TEST_F(FilmMakerTest, AFullDiskReachesTheEngineAndTheFilmSoFarPlays) {
     const FilmedScene scene = small_scene(160, 96);
     {
         const FileSizeLimit limit(512 * 1024);
-        FilmMaker maker(scene, options(), painting([](const Frame& frame) {
+        FilmMaker maker(scene, options(), painting([](const State& frame) {
                             return noise(160, 96, static_cast<int>(frame.step));
                         }));
         EXPECT_THAT(failure_of(maker),

@@ -15,11 +15,11 @@ namespace {
 using test::tells;
 
 // Moments of `count` frames, one every `every` steps from the step `first` on, by a clock of 20 Hz.
-std::vector<Frame> moments(int count, std::int64_t every, std::int64_t first = 0, std::int64_t period = 800) {
+std::vector<State> moments(int count, std::int64_t every, std::int64_t first = 0, std::int64_t period = 800) {
     const Clock clock{1 / (20.0 * static_cast<double>(period)), period, 0};
-    std::vector<Frame> frames;
+    std::vector<State> frames;
     for (int i = 0; i < count; ++i) {
-        Frame frame;
+        State frame;
         frame.step = first + i * every;
         frame.time = clock.time(frame.step);
         frame.phase = clock.phase(frame.step);
@@ -36,7 +36,7 @@ Drive drive_of(double frequency) {
     return drive;
 }
 
-std::string caption(const std::vector<Frame>& frames, double frequency = 20, double rate = 30) {
+std::string caption(const std::vector<State>& frames, double frequency = 20, double rate = 30) {
     const auto segment = pacing_of(frames, drive_of(frequency), rate);
     return segment ? playback_caption(*segment, drive_of(frequency), rate) : "none";
 }
@@ -58,10 +58,10 @@ TEST(Pacing, OtherwiseTheFactorFollowsFromTheInterval) {
 // The moments of a panel of 25 Hz follow those of 20 Hz: it shows every period, but leaves one out now and
 // then.
 TEST(Pacing, WhereFramesComeUnevenlyTheirMeanIsSaid) {
-    std::vector<Frame> frames;
+    std::vector<State> frames;
     const Clock clock{1 / 25.0 / 640, 640, 0};
     for (const std::int64_t period : {0, 1, 3, 4, 5}) {
-        Frame frame;
+        State frame;
         frame.step = 640 * period;
         frame.time = clock.time(frame.step);
         frames.push_back(frame);
@@ -88,7 +88,7 @@ TEST(Pacing, DurationIsThatOfTheFrames) {
 
 TEST(Pacing, OneFrameOrUnevenOnesHaveNone) {
     EXPECT_EQ(caption(moments(1, 800)), "none");
-    std::vector<Frame> uneven = moments(4, 80);
+    std::vector<State> uneven = moments(4, 80);
     uneven.erase(uneven.begin() + 1);
     EXPECT_EQ(caption(uneven), "none");
 }

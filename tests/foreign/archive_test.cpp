@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
+#include "engine/files/frames/state_writer.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -58,7 +58,7 @@ class Foreign : public testing::Test {
 TEST_F(Foreign, RowsComeByTheirIdsWhateverTheirOrder) {
     write(file("a.dump"), dump(0, "id type x y z radius", {"7 2 1 1 1 0.1", "3 1 0.5 0.5 0.5 0.2"}));
     const ForeignArchive archive(file("a.dump"), {});
-    const Frame frame = archive.grains(0);
+    const State frame = archive.grains(0);
     EXPECT_THAT(frame.id, testing::ElementsAre(3, 7));
     EXPECT_THAT(frame.species, testing::ElementsAre(0, 1));
     EXPECT_EQ(frame.position[1], Vec3(1, 1, 1));
@@ -95,7 +95,7 @@ TEST_F(Foreign, UnitsBecomeSi) {
     options.units = "cgs";
     options.time_step = 1e-3;
     const ForeignArchive archive(file("c.dump"), options);
-    const Frame frame = archive.grains(0);
+    const State frame = archive.grains(0);
     EXPECT_NEAR((frame.position[0] - Vec3(0.01, 0.02, 0.03)).norm(), 0, 1e-16);
     EXPECT_DOUBLE_EQ(frame.radius[0], 0.001);
     EXPECT_DOUBLE_EQ(frame.velocity[0].x(), 0.05);
@@ -219,9 +219,9 @@ TEST_P(RoundTrip, IdsTypesAndPlacesComeBack) {
     const ForeignArchive first(file("o.dump"), options);
     export_frames(first, format, file(name), {}, false, [](double) { return true; });
     const fs::path back = std::string(format) == "vtk" ? file(name) / "grains.pvd" : file(name);
-    const std::unique_ptr<FrameArchive> again = open_frames(back);
+    const std::unique_ptr<StateArchive> again = open_frames(back);
     const std::size_t last = again->moments().size() - 1;
-    const Frame is = again->grains(last), wanted = first.grains(1);
+    const State is = again->grains(last), wanted = first.grains(1);
     EXPECT_EQ(is.id, wanted.id);
     EXPECT_EQ(is.species, wanted.species);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -286,7 +286,7 @@ TEST(Archive, AFileOfContactsAloneSaysWhereItBelongs) {
 TEST(Archive, VelocitiesHaveTheUnitOfTheirNames) {
     const TemporaryFolder folder;
     write(folder / "a.csv", "x [mm],y [mm],z [mm],radius [mm],vx [mm/s],vy [mm/s],vz\n1,2,3,4,5,6,7\n");
-    const Frame frame = ForeignArchive(folder / "a.csv", {}).grains(0);
+    const State frame = ForeignArchive(folder / "a.csv", {}).grains(0);
     EXPECT_NEAR(frame.velocity[0].x(), 0.005, 1e-15);
     EXPECT_NEAR(frame.velocity[0].z(), 7, 1e-12);
     EXPECT_NEAR(frame.radius[0], 0.004, 1e-15);
@@ -298,7 +298,7 @@ TEST(Archive, UnitsInNamesMeasureWhatTheColumnHolds) {
     write(folder / "a.csv",
           "x [inch],y [inch],z [inch],radius [µm],vx [km/h],vy [s],vz (plain)\n1,2,3,4,36,6,7\n");
     const ForeignArchive archive(folder / "a.csv", {});
-    const Frame frame = archive.grains(0);
+    const State frame = archive.grains(0);
     EXPECT_NEAR(frame.position[0].x(), 0.0254, 1e-15);
     EXPECT_NEAR(frame.radius[0], 4e-6, 1e-18);
     EXPECT_NEAR(frame.velocity[0].x(), 10, 1e-12);

@@ -62,7 +62,7 @@ class Writer {
 constexpr const char* four = "id x y z";
 const std::vector<double> straight{-1, 1, 0, 2, 0, 3};
 
-struct Frame {
+struct State {
     std::int64_t step = 0, claimed = 2;
     std::vector<Rows> parts{{{1, 0.1, 0.2, 0.3}}, {{2, 0.4, 0.5, 0.6}}};
     std::int32_t tilted = 0;
@@ -72,7 +72,7 @@ struct Frame {
 };
 
 // A frame in the form that LAMMPS has written since 2021.
-std::string new_frame(const Frame& f, bool swapped = false) {
+std::string new_frame(const State& f, bool swapped = false) {
     Writer out(swapped);
     out.add(std::int64_t{-10})
         .text("DUMPCUSTOM")
@@ -125,9 +125,9 @@ std::string binary_complaint(const test::TemporaryFolder& folder, std::string_vi
 TEST(BinaryDump, WithNamesInBothByteOrders) {
     const test::TemporaryFolder folder;
     for (const bool swapped : {false, true}) {
-        Frame second{5000000000, 0, {{}, {}}};
+        State second{5000000000, 0, {{}, {}}};
         second.time = 0.75;
-        Frame first;
+        State first;
         first.units = "si";
         first.time = 0.5;
         const std::string bytes =
@@ -157,12 +157,12 @@ TEST(BinaryDump, WithNamesInBothByteOrders) {
 
 TEST(BinaryDump, TiltedBoxes) {
     const test::TemporaryFolder folder;
-    Frame tilted;
+    State tilted;
     tilted.tilted = 1;
     tilted.box = {-1.5, 1,    -0.25, 2,    0,
                   3,    -0.5, 0.25,  -0.25};  // bounds of the box around it, then xy, xz, yz
     tilted.box[1] += 0.25;
-    Frame general;
+    State general;
     general.tilted = 2;
     general.box = {1, 0, 0, 0.25, 1, 0, 0, 0, 2, -1, -2, -3};
     const auto dump = open_binary(folder.write("a", new_frame(tilted) + new_frame(general)));
@@ -204,7 +204,7 @@ TEST(BinaryDump, OldFilesWithoutNames) {
 
 TEST(BinaryDump, OtherFilesAreNotTaken) {
     const auto takes = [](const std::string& bytes) {
-        FileHead head;
+        FileStart head;
         head.bytes = bytes;
         return lammps_binary_format().takes(head);
     };
@@ -234,7 +234,7 @@ TEST(CutBinaryDump, WholeFramesAreRead) {
 TEST(DamagedBinaryDump, IsRefusedWithItsByte) {
     const test::TemporaryFolder folder;
     const std::string whole = new_frame({});
-    Frame f;
+    State f;
     f.claimed = 1000000000;
     EXPECT_THAT(binary_complaint(folder, new_frame(f)), tells({"after 2 rows", "1000000000"}));
     f.claimed = 1;

@@ -57,7 +57,7 @@ TEST(PackedBytes, AllPackingsGiveTheSame) {
 TEST(PackedBytes, AHeadIsUnpacked) {
     const test::TemporaryFolder folder;
     const std::string all = numbers(200000);
-    const FileHead head = unpacked_head(folder.write("a", gzip_of(all)));
+    const FileStart head = unpacked_head(folder.write("a", gzip_of(all)));
     EXPECT_EQ(head.bytes, all.substr(0, kHeadBytes));
     EXPECT_EQ(head.size, std::filesystem::file_size(folder.path() / "a"));
     EXPECT_FALSE(head.folder);

@@ -202,7 +202,7 @@ TEST(TextDump, ManyRows) {
 
 TEST(TextDump, WhatIsTaken) {
     const auto takes = [](std::string text) {
-        FileHead head;
+        FileStart head;
         head.bytes = std::move(text);
         return lammps_text_format().takes(head);
     };

@@ -232,7 +232,7 @@ TEST_P(ImportedFolder, HasTheseBits) {
     for (std::string& file : request.reading.contacts) file.replace(0, 1, folder.path().string());
     request.folder = folder / "run";
     request.program_version = "test";
-    const ImportedRun run = import_run(request);
+    const Imported run = import_run(request);
     std::map<std::string, std::string> files;
     for (const fs::directory_entry& one : fs::directory_iterator(request.folder))
         files[one.path().filename().string()] = text_of(one.path());

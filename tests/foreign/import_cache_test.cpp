@@ -57,7 +57,7 @@ class ImportCache : public testing::Test {
         fs::last_write_time(dump, fs::file_time_type::clock::now() - std::chrono::hours(1));
     }
 
-    ImportedRun import() const {
+    Imported import() const {
         ImportRequest request;
         request.from = dump;
         request.reading.units = "si";

@@ -32,7 +32,7 @@ class OneFile {
 };
 
 inline bool takes(const RawFormat& format, std::string_view bytes) {
-    FileHead head;
+    FileStart head;
     head.size = bytes.size();
     head.bytes = bytes.substr(0, kHeadBytes);
     return format.takes(head);

@@ -12,8 +12,8 @@ using namespace vtk_test;
 using test::tells;
 using testing::HasSubstr;
 
-FileHead head_of(const std::string& bytes) {
-    FileHead head;
+FileStart head_of(const std::string& bytes) {
+    FileStart head;
     head.bytes = bytes.substr(0, kHeadBytes);
     head.size = bytes.size();
     return head;
@@ -37,7 +37,7 @@ std::string binary_stl(std::string head, std::size_t triangles) {
 
 // The size of the file is that of its packed bytes, and only the first bytes are known.
 TEST(WallSurface, ALargeStlThatWasPackedIsKnownByItsFacets) {
-    FileHead head = head_of(binary_stl("mesh", 2000));
+    FileStart head = head_of(binary_stl("mesh", 2000));
     ASSERT_EQ(head.bytes.size(), kHeadBytes);
     EXPECT_TRUE(wall_surface_format().takes(head));
     head.size = 4000;

@@ -47,9 +47,9 @@ TEST(VtkWriter, WordsAreTheirBytesAndAZero) {
 
 // Grain 3 lies on a wall at z = 0 and carries grain 7, which stands aside by an angle of 30 degrees.
 struct Pile {
-    Frame frame;
+    State frame;
     std::vector<SavedContact> contacts;
-    World world;
+    StoredWorld world;
 
     Pile() {
         frame.id = {3, 7};

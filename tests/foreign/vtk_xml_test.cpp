@@ -205,7 +205,7 @@ TEST(VtkXml, CompressorOfTextsDoesNotMatter) {
 
 TEST(VtkXml, TakesWhatItReads) {
     const Folder folder;
-    FileHead head;
+    FileStart head;
     head.bytes = "<?xml version='1.0'?><VTKFile header_type=\"UInt64\" type='PolyData'>";
     EXPECT_TRUE(vtk_xml_format().takes(head));
     EXPECT_FALSE(vtk_collection_format().takes(head));

@@ -111,10 +111,10 @@ TEST(Carry, RefusalsNameTheOptionOfTheVerbInUse) {
 }
 
 TEST(Carry, TakesTheContainersFrameWhereAllMovesTogether) {
-    EXPECT_EQ(carried_of(exact + head).frame, RunFrame::container);
+    EXPECT_EQ(carried_of(exact + head).frame, ReferenceFrame::container);
     const std::string floor = exact + head;
     CarriedScene carried = carried_of(exact + "[[wall]]\npoint = [0, 0, 0.05]\nnormal = [0, 0, -1]\n" + head);
-    EXPECT_EQ(carried.frame, RunFrame::lab);
+    EXPECT_EQ(carried.frame, ReferenceFrame::lab);
 }
 
 TEST(Carry, KeepsEdinburghToOneRank) {

@@ -49,7 +49,7 @@ TEST_F(DeckDumps, FramesComeOnceTheyAreWhole) {
     const std::string all = first + second;
     for (std::size_t k = 0; k < all.size(); ++k) {
         add(all.substr(k, 1));
-        const std::optional<Frame> rows = dump_.next();
+        const std::optional<State> rows = dump_.next();
         ASSERT_EQ(rows.has_value(), k + 1 == first.size() || k + 1 == all.size()) << k;
         if (!rows) continue;
         EXPECT_EQ(rows->step, k + 1 == first.size() ? 0 : 100);

@@ -10,7 +10,7 @@
 #include "engine/plan/damping.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene_file.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
 #include "tests/handover/peer_expression.hpp"
 #include "tests/support/small_scene.hpp"
 
@@ -42,14 +42,14 @@ Motion at(const DriveFormula& formula, double time) {
 void expect_our_motion(const std::string& more) {
     const Scene scene = read_scene_text(scene_text + more, "drive.toml");
     const Plan plan = make_plan(scene);
-    const WallMotion walls(scene.drive, plan.clock);
+    const DriveMotion walls(scene.drive, plan.clock);
     const DriveFormula formula = drive_formula(scene.drive);
     const double omega = 2 * std::numbers::pi * 60;  // no stage is faster
     double farthest = 0;
     for (std::int64_t step = 0; step < plan.steps; step += plan.steps / 997) {
         const double time = plan.clock.time(step), dt = 1e-6;
         const Motion now = at(formula, time);
-        const Pose pose = walls.at(step);
+        const DrivePose pose = walls.at(step);
         farthest = std::max(farthest, std::abs(now.shift));
         // The stretches of ours begin at whole steps, so they may come a part of a step later.
         const double late = 1e-9 + 1e-6 * 0.002;

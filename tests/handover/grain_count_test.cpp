@@ -15,8 +15,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Frame with(std::int64_t step, const std::vector<std::int32_t>& ids, double z) {
-    Frame frame;
+State with(std::int64_t step, const std::vector<std::int32_t>& ids, double z) {
+    State frame;
     frame.step = step;
     frame.time = 1e-3 * static_cast<double>(step);
     for (const std::int32_t id : ids) {
@@ -39,7 +39,7 @@ const std::string kBox = SmallScene()
 TEST(GrainCount, ALostGrainIsNamedWithItsStep) {
     const Scene scene = read_scene_text(kBox, "box.toml");
     const GrainCount count(scene, "x.dump");
-    const Frame before = with(10, {0, 1, 2}, 0.01), now = with(20, {0, 2}, 0.01);
+    const State before = with(10, {0, 1, 2}, 0.01), now = with(20, {0, 2}, 0.01);
     try {
         count.compare(&before, now);
         FAIL();
@@ -57,7 +57,7 @@ TEST(GrainCount, AGrainMayLeaveWhereItCanHaveComeToTheExit) {
         "box.toml");
     const GrainCount count(scene, "x.dump");
     // In 10 ms it falls by 0.5 mm.
-    const Frame low = with(10, {0, 1, 2}, -0.018), high = with(10, {0, 1, 2}, 0.01);
+    const State low = with(10, {0, 1, 2}, -0.018), high = with(10, {0, 1, 2}, 0.01);
     EXPECT_THAT(count.compare(&low, with(20, {0, 2}, -0.018)).left, ElementsAre(1U));
     EXPECT_THROW(count.compare(&high, with(20, {0, 2}, 0.01)), RunError);
 }

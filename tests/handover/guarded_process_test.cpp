@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/handover/engine_job.hpp"
+#include "engine/handover/peer_process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel::test {

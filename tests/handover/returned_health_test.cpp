@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
@@ -41,9 +41,9 @@ class ReturnedHealths : public testing::Test {
         plan_ = make_plan(scene_);
         health_ = std::make_unique<ReturnedHealth>(scene_, plan_);
     }
-    Frame frame(std::int64_t step, const std::vector<Vec3>& places,
+    State frame(std::int64_t step, const std::vector<Vec3>& places,
                 const std::vector<Vec3>& velocities = {}) {
-        Frame made;
+        State made;
         made.step = step;
         made.time = plan_.clock.time(step);
         for (std::size_t i = 0; i < places.size(); ++i) {
@@ -56,7 +56,7 @@ class ReturnedHealths : public testing::Test {
         }
         return made;
     }
-    std::string said(const Frame& frame) {
+    std::string said(const State& frame) {
         try {
             health_->look(frame);
         } catch (const RunError& unsound) {
@@ -98,7 +98,7 @@ TEST_F(ReturnedHealths, OurOwnRunsAreSound) {
           "[container.turn]\naxis = [1, 0, 0]\nthrough = [0, 0, 0.05]\nrate = \"120 rpm\"\n"}) {
         for (const std::int64_t every : {50, 2500}) {
             use(box(more));
-            Simulation run(scene_, plan_, 1);
+            SimulatedBed run(scene_, plan_, 1);
             run.pack();
             for (std::int64_t step = 0; step <= plan_.steps; step += every) {
                 run.advance(step);

@@ -74,7 +74,7 @@ struct LammpsHooke {
     }
     template <class R>
     static HWY_INLINE Force<R> now(const Parameters<R>& p, const History<R>& h, const Touch<R>& touch,
-                                   const Triple<R>& velocity, Energies<R>& energies) {
+                                   const Triple<R>& velocity, ContactEnergies<R>& energies) {
         energies = {R(0), R(0), R(0), R(0), R(0)};  // LAMMPS is asked for none
         History<R> copy = h;
         return force(p, copy, touch, velocity, R(0), R(0));

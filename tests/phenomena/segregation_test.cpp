@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/measure/columns.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
@@ -27,7 +27,7 @@ HeightDifference height_difference(const std::string& scene_file, int seed) {
     const Scene scene = read_scene(fmt::format("{}/scenes/{}", GRAINREEL_SOURCE, scene_file),
                                    {fmt::format("run.seed={}", seed)}, measurable_in);
     const Plan plan = make_plan(scene);
-    Simulation simulation(scene, plan, 0);
+    SimulatedBed simulation(scene, plan, 0);
     simulation.pack();
     std::vector<double> values;
     for (std::int64_t at = 0; at <= plan.steps; at += plan.clock.steps_per_period) {

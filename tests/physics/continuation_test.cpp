@@ -12,7 +12,7 @@
 #include "engine/base/random.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/restart.hpp"
@@ -48,7 +48,7 @@ class Continuation : public testing::Test {
 
     // Runs a period of the small scene.
     std::string first(const Scene& scene) const {
-        Simulation run(scene, make_plan(scene), 1);
+        SimulatedBed run(scene, make_plan(scene), 1);
         run.pack();
         run.advance(steps_of(scene));
         run.save_checkpoint(here / "first.grs");
@@ -57,7 +57,7 @@ class Continuation : public testing::Test {
     }
     static std::string refusal(const Scene& scene) {
         try {
-            Simulation run(scene, make_plan(scene), 1);
+            SimulatedBed run(scene, make_plan(scene), 1);
             run.pack();
             run.advance(run.step() + 20);
             return "accepted";
@@ -228,7 +228,7 @@ TEST_F(Continuation, EveryKeyThatDecidesIsCompared) {
 TEST_F(Continuation, IsBitForBitWhereverTheFloorIs) {
     const Scene scene = scene_of({"drive.g_level=5", "run.duration=0.5 s"});
     const Plan plan = make_plan(scene);
-    Simulation whole(scene, plan, 1);
+    SimulatedBed whole(scene, plan, 1);
     whole.pack();
     for (int eighth = 1; eighth <= 24; ++eighth) {
         const std::int64_t step = eighth * plan.clock.steps_per_period / 8 + 3;
@@ -236,7 +236,7 @@ TEST_F(Continuation, IsBitForBitWhereverTheFloorIs) {
         whole.save_checkpoint(here / "first.grs");
         whole.advance(step + 40);
         const Scene next = next_of({"drive.g_level=5", "run.duration=0.5 s"});
-        Simulation taken_up(next, make_plan(next), 1);
+        SimulatedBed taken_up(next, make_plan(next), 1);
         taken_up.advance(step + 40);
         EXPECT_EQ(taken_up.state_hash(), whole.state_hash()) << "step " << step;
     }
@@ -246,16 +246,16 @@ TEST_F(Continuation, RotationMayBeginOrEnd) {
     first(scene_of());
     Scene scene = next_of();
     scene.wishes.orientation = true;  // as for a film that shows how grains turn
-    Simulation turning(scene, make_plan(scene), 1);
+    SimulatedBed turning(scene, make_plan(scene), 1);
     const std::int64_t end = turning.step() + 200;
     turning.advance(end);
     EXPECT_EQ(turning.frame().orientation.size(), turning.grains());
     turning.save_checkpoint(here / "turning.grs");
     scene = next_of({}, "", true, "turning.grs");
-    Simulation again(scene, make_plan(scene), 2);
+    SimulatedBed again(scene, make_plan(scene), 2);
     EXPECT_TRUE(again.frame().orientation.empty());
     scene = next_of();
-    Simulation straight(scene, make_plan(scene), 1);
+    SimulatedBed straight(scene, make_plan(scene), 1);
     straight.advance(end + 300);
     again.advance(end + 300);
     EXPECT_EQ(again.state_hash(), straight.state_hash());
@@ -268,11 +268,11 @@ TEST_F(Continuation, FromBeforeTheFirstStep) {
         const std::vector<std::string> sets = {"drive.ramp=0", "drive.phase=0.25",
                                                std::string("run.integrator=") + integrator};
         Scene scene = next_of(sets, "", false);
-        Simulation whole(scene, make_plan(scene), 1);
+        SimulatedBed whole(scene, make_plan(scene), 1);
         whole.pack();
         whole.save_checkpoint(here / "start.grs");
         scene = next_of(sets, "", true, "start.grs");
-        Simulation next(scene, make_plan(scene), 2);
+        SimulatedBed next(scene, make_plan(scene), 2);
         next.pack();
         whole.advance(300);
         next.advance(300);
@@ -286,7 +286,7 @@ TEST_F(Continuation, AnewTheMassesAreThoseOfTheScene) {
         const Scene dense =
             next_of({"species.small.density=5000", "species.big.density=5000"}, "", false, file);
         const Scene same = next_of({}, "", false, file);
-        Simulation heavy(dense, make_plan(dense), 1), light(same, make_plan(same), 1);
+        SimulatedBed heavy(dense, make_plan(dense), 1), light(same, make_plan(same), 1);
         heavy.pack(), light.pack();
         EXPECT_NEAR(heavy.measure("kinetic_J") / light.measure("kinetic_J"), 2, 1e-9) << file;
     }
@@ -331,8 +331,8 @@ TEST_F(Continuation, TablesAreNotBelieved) {
 // A run that grains have left writes such a table: those that stayed keep their order and get new numbers.
 TEST_F(Continuation, AnewATableMayHaveGaps) {
     first(scene_of());
-    Frame frame = read_grain_table(here / "final.csv");
-    const Frame whole = frame;
+    State frame = read_grain_table(here / "final.csv");
+    const State whole = frame;
     const auto leave_out = [&](auto& values) {
         for (const std::size_t gone : {41, 17, 3}) values.erase(values.begin() + static_cast<int>(gone));
     };
@@ -340,8 +340,8 @@ TEST_F(Continuation, AnewATableMayHaveGaps) {
     leave_out(frame.position), leave_out(frame.velocity), leave_out(frame.spin);
     write_grain_table(here / "final.csv", frame);
     const Scene scene = next_of({"species.small.count=38", "species.big.count=9"}, "", false, "final.csv");
-    Simulation run(scene, make_plan(scene), 1);
-    const Frame start = run.frame();
+    SimulatedBed run(scene, make_plan(scene), 1);
+    const State start = run.frame();
     ASSERT_EQ(start.size(), whole.size() - 3);
     for (std::size_t i = 0; i < start.size(); ++i) {
         EXPECT_EQ(start.id[i], static_cast<std::int32_t>(i));
@@ -383,7 +383,7 @@ TEST_F(ForgedCheckpoint, NeverCrashes) {
         forge(bytes);
         try {
             const bool begins = k % 8 == 1;
-            Simulation run(begins ? anew : keeps, begins ? plan_anew : plan, 1 + k % 2);
+            SimulatedBed run(begins ? anew : keeps, begins ? plan_anew : plan, 1 + k % 2);
             run.pack();
             run.advance(run.step() + 3);
         } catch (const UserError& mistake) {

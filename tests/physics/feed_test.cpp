@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "engine/base/error.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/support/small_scene.hpp"
@@ -57,7 +57,7 @@ constexpr std::int64_t kLook = 200;  // steps
 TEST(Feed, GivesRateTimesTime) {
     const Scene scene = scene_of(kTwoFeeds);
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     EXPECT_EQ(run.grains(), 4u);
     for (const double share : {0.1, 0.2, 0.4, 0.7, 1.0}) {
@@ -73,7 +73,7 @@ TEST(Feed, GivesRateTimesTime) {
     EXPECT_EQ(scene.grains(), 156);
 }
 
-double gap(const Frame& f, std::size_t a, std::size_t b) {
+double gap(const State& f, std::size_t a, std::size_t b) {
     return (f.position[a] - f.position[b]).norm() - f.radius[a] - f.radius[b];
 }
 
@@ -84,12 +84,12 @@ TEST(Feed, AppearsWhereNothingIs) {
         "[[feed]]\nspecies = \"big\"\nrate = 3000\ncount = 60\n"
         "low = [-0.008, -0.008, 0.02]\nhigh = [0.01, 0.01, 0.04]\nvelocity = [0, 0, -1]\n";
     const Scene scene = scene_of(low, {"species[0].count=1"});
-    Simulation run(scene, make_plan(scene), 1);
+    SimulatedBed run(scene, make_plan(scene), 1);
     run.pack();
     std::size_t there = run.grains();
     for (std::int64_t step = kLook; run.grains() < 65; step += kLook) {
         run.advance(step);
-        const Frame f = run.frame();
+        const State f = run.frame();
         for (std::size_t i = there; i < f.size(); ++i) {
             EXPECT_EQ(f.id[i], static_cast<std::int32_t>(i));
             EXPECT_EQ(f.velocity[i], Vec3(0, 0, -1));
@@ -116,7 +116,7 @@ TEST(Feed, KeepsTheAccountOfMomentumAndEnergy) {
         "low = [-0.009, -0.009, 0.02]\nhigh = [0.009, 0.009, 0.05]\n",
         {"species[1].count=1"});
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     const Measures start = run.measures();
     const auto energy = [](const Measures& m) {
@@ -127,13 +127,13 @@ TEST(Feed, KeepsTheAccountOfMomentumAndEnergy) {
     std::int64_t step = 0;
     while (run.grains() < 21) {
         run.advance(step += kLook);
-        const Frame f = run.frame();
+        const State f = run.frame();
         for (; there < f.size(); ++there) {
             const double m = 2500 * 4.0 / 3 * std::numbers::pi * std::pow(f.radius[there], 3);
             expected += m * (2 + 9.81 * plan.clock.time(step)), mass += m;
         }
     }
-    const Frame f = run.frame();
+    const State f = run.frame();
     double momentum = 0;
     for (std::size_t i = 1; i < f.size(); ++i)
         momentum += 2500 * 4.0 / 3 * std::numbers::pi * std::pow(f.radius[i], 3) * f.velocity[i].z();
@@ -144,7 +144,7 @@ TEST(Feed, KeepsTheAccountOfMomentumAndEnergy) {
 }
 
 std::uint64_t end_of(const Scene& scene, int threads) {
-    Simulation run(scene, make_plan(scene), threads);
+    SimulatedBed run(scene, make_plan(scene), threads);
     run.pack();
     run.advance(make_plan(scene).steps);
     return run.state_hash();
@@ -162,7 +162,7 @@ TEST(Feed, GoesOnFromACheckpoint) {
     const std::string file = (folder / "half.grs").string();
     const Scene scene = scene_of(fmt::format("{}{}", kTwoFeeds, kShaken));
     const Plan plan = make_plan(scene);
-    Simulation straight(scene, plan, 1);
+    SimulatedBed straight(scene, plan, 1);
     straight.pack();
     straight.advance(plan.steps / 3);
     straight.save_checkpoint(file);
@@ -172,7 +172,7 @@ TEST(Feed, GoesOnFromACheckpoint) {
     text.replace(text.find(start), start.size(),
                  fmt::format("[start]\nmethod = \"file\"\nkeep_clock = true\nfile = \"{}\"\n", file));
     const Scene next = read_scene_text(text, "box.toml", with_tested_precision({}));
-    Simulation again(next, make_plan(next), 2);
+    SimulatedBed again(next, make_plan(next), 2);
     EXPECT_EQ(again.step(), plan.steps / 3);
     again.pack();
     again.advance(plan.steps);
@@ -185,7 +185,7 @@ TEST(Feed, IntoAFullContainerStops) {
         "[[feed]]\nrate = 20000\ncount = 600\nlow = [-0.01, -0.01, 0]\n"
         "high = [0.01, 0.01, 0.006]\n",
         {"run.duration=2 s"});
-    Simulation run(scene, make_plan(scene), 1);
+    SimulatedBed run(scene, make_plan(scene), 1);
     run.pack();
     try {
         run.advance(make_plan(scene).steps);
@@ -201,7 +201,7 @@ TEST(Feed, FillsAnEmptyContainer) {
     const Scene scene = scene_of(kTwoFeeds, {"species[1].count=1"});
     Scene empty = scene;
     empty.species[1].count = 0;
-    Simulation run(empty, make_plan(empty), 1);
+    SimulatedBed run(empty, make_plan(empty), 1);
     run.pack();
     EXPECT_EQ(run.grains(), 0u);
     EXPECT_TRUE(std::isnan(run.measures().at("centre_z_m")));

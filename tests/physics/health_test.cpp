@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/support/tells.hpp"
@@ -118,7 +118,7 @@ position = [0.012, 0, )") + height +
                                  "]\n[run]\nduration = \"0.3 s\"\n";
         const Scene scene = read_scene_text(text, "fall.toml", {}, measurable_in);
         const Plan plan = make_plan(scene);
-        Simulation simulation(scene, plan, 1);
+        SimulatedBed simulation(scene, plan, 1);
         EXPECT_NO_THROW(simulation.advance(plan.steps)) << height;
         EXPECT_EQ(simulation.grains(), 0u);
     }

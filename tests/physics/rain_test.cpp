@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/support/small_scene.hpp"
@@ -28,13 +28,13 @@ Scene scene_of(const std::vector<std::string>& sets = {}) {
 
 TEST(Rain, FillsTheContainerAndComesToRest) {
     const Scene scene = scene_of();
-    Simulation run(scene, make_plan(scene), 1);
+    SimulatedBed run(scene, make_plan(scene), 1);
     const PackingResult packed = run.pack();
     EXPECT_TRUE(packed.finished);
     EXPECT_TRUE(packed.settled);
     EXPECT_EQ(run.step(), 0);
     EXPECT_EQ(run.traffic().came, 0) << "the account begins with the drive";
-    const Frame f = run.frame();
+    const State f = run.frame();
     ASSERT_EQ(f.size(), 240u);
     std::int64_t big = 0, early = 0;
     for (std::size_t i = 0; i < f.size(); ++i) {
@@ -60,7 +60,7 @@ TEST(Rain, HasTheSameBitsOnAnyNumberOfThreads) {
     const Scene scene = scene_of({"start.rain_rate=4000", "start.settle_limit=0.05 s"});
     std::uint64_t one = 0;
     for (const int threads : {1, 2, 3}) {
-        Simulation run(scene, make_plan(scene), threads);
+        SimulatedBed run(scene, make_plan(scene), threads);
         run.pack();
         run.advance(200);
         if (threads == 1) one = run.state_hash();
@@ -71,7 +71,7 @@ TEST(Rain, HasTheSameBitsOnAnyNumberOfThreads) {
 TEST(Rain, EndsWithWhatToDoWhereThereIsNoRoom) {
     const Scene scene =
         scene_of({"container.height=15.1 mm", "species.small.count=410", "start.rain_rate=20000"});
-    Simulation run(scene, make_plan(scene), 1);
+    SimulatedBed run(scene, make_plan(scene), 1);
     try {
         run.pack();
         FAIL();

@@ -11,7 +11,7 @@
 #include "engine/lab/chart/limits/stability.hpp"
 #include "engine/measure/health.hpp"
 #include "engine/plan/plan_parts.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
@@ -176,7 +176,7 @@ TEST(StabilityChart, RoundingReachesTheForceWhereItReachesTheOverlap) {
 std::string complaint(const std::string& text, const std::vector<std::string>& sets = {}) {
     const Scene scene = read_scene_text(text, "test.toml", with_tested_precision(sets));
     const Plan plan = make_plan(scene);
-    Simulation simulation(scene, plan, 1);
+    SimulatedBed simulation(scene, plan, 1);
     try {
         simulation.pack();
         simulation.advance(plan.steps);

@@ -35,7 +35,7 @@ TEST(FilmTimes, TheRunsOwnTableIsTakenWhereItIsWhole) {
     const test::TemporaryFolder here;
     EXPECT_FALSE(kept_film_times(here.path(), 3));
     FilmTimesTable table;
-    Frame frame;
+    State frame;
     for (const double time : {0.0, 0.05, 0.15, 0.25}) {
         frame.time = time;
         table.add(frame, time == 0.05 ? 2 : 1);  // one moment is held for a caption

@@ -189,12 +189,12 @@ TEST(PageMeshes, TheBoxHasThemAtAllMoments) {
     TriangleMesh box;
     test::add_box(box, {0, -1, 0}, {4, 1, 1});
     const FilmedScene scene = scene_with({box});
-    Frame turned;
+    State turned;
     turned.bodies.resize(3);
     turned.bodies[2].rotation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3(0, 0, 1)));
     turned.bodies[2].place = Vec3(0, 0, 2);
     Extent extent{{0, 0, 0}, {0.1, 0.1, 0.1}};
-    take_meshes(extent, scene, {Frame(), turned});
+    take_meshes(extent, scene, {State(), turned});
     EXPECT_LT((extent.low - Vec3(-1, -1, 0)).norm(), 1e-12);
     EXPECT_LT((extent.high - Vec3(4, 4, 3)).norm(), 1e-12);
 }

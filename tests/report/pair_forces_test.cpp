@@ -1,5 +1,5 @@
 // Tests of force chains in the page, read back in the form that pair_forces.hpp describes.
-#include "render/page/bed/bed_frames.hpp"
+#include "render/page/bed/page_bed.hpp"
 
 #include <gtest/gtest.h>
 #include <libdeflate.h>
@@ -64,7 +64,7 @@ TEST(PairForces, PairsAndForcesAreReadBack) {
     std::mt19937 random(3);
     std::uniform_int_distribution<std::int32_t> id(1, 90'000);
     std::uniform_real_distribution<double> decade(-4.9, 0);
-    std::vector<std::vector<Touch>> moments(3);
+    std::vector<std::vector<Link>> moments(3);
     for (auto& touches : moments)
         for (int k = 0; k < 500; ++k)
             touches.push_back({10 * id(random), 10 * id(random), std::pow(10, decade(random))});
@@ -81,10 +81,10 @@ TEST(PairForces, PairsAndForcesAreReadBack) {
     for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_EQ(forces.moments[k].moment, 10 * k);
         std::stable_sort(moments[k].begin(), moments[k].end(),
-                         [](const Touch& a, const Touch& b) { return a.first < b.first; });
+                         [](const Link& a, const Link& b) { return a.first < b.first; });
         ASSERT_EQ(read[k].size(), moments[k].size());
         for (std::size_t i = 0; i < read[k].size(); ++i) {
-            const Touch& touch = moments[k][i];
+            const Link& touch = moments[k][i];
             EXPECT_EQ(read[k][i].first, touch.first / 10 - 1);
             const int second = touch.second < 0 ? 0xffffff - (-1 - touch.second) : touch.second / 10 - 1;
             EXPECT_EQ(read[k][i].second, second);

@@ -128,10 +128,10 @@ TEST(Slabs, TheBoxHasThemWhereTheyAreTurned) {
     const std::vector<Slab> slabs = slabs_of(scene);
     Extent box = box_of(slabs, scene);
     const Extent rest = box;
-    take_turned(box, slabs, {Frame()});
+    take_turned(box, slabs, {State()});
     EXPECT_EQ(box.low, rest.low);
     EXPECT_EQ(box.high, rest.high);
-    Frame turned;
+    State turned;
     for (BodyPose& pose : turned.bodies) {
         pose.rotation = Quaternion(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3(1, 0, 0)));
         pose.place = Vec3(0, 0.05, 0.05);  // y and z become 0.05 - z and 0.05 + y

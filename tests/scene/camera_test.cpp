@@ -68,7 +68,7 @@ TEST(CameraKeys, AreWrittenBack) {
 }
 
 TEST(CameraKeys, WhatIsFramedIsReadAndWrittenBack) {
-    EXPECT_EQ(read_text(wedge_text).film.camera.frame, CameraFrame::reach);
+    EXPECT_EQ(read_text(wedge_text).film.camera.frame, FramingScope::reach);
     for (const char* words : {"frame = \"container\"\n", "frame = \"bed\"\n", "reach = \"90 mm\"\n"}) {
         const FilmedScene scene = read_text(wedge_text + "[film.camera]\n" + words);
         EXPECT_NE(scene.film, read_text(wedge_text).film) << words;

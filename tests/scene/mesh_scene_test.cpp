@@ -98,7 +98,7 @@ TEST_F(MeshScene, PairsNameMeshesAndWallsHoldForThem) {
                             "[[contact.pair]]\nbetween = [\"vane\", \"ball\"]\nfriction = 0.7\n"
                             "[[contact.pair]]\nbetween = [\"ball\", \"wall\"]\nrestitution = 0.4\n"
                             "[contact.wall]\nfriction = 0.1\n";
-    const Contact contact = files.read(two).contact;
+    const SceneContacts contact = files.read(two).contact;
     ASSERT_EQ(contact.mesh.size(), 2u);
     EXPECT_EQ(contact.mesh[0], contact.wall[0]);
     EXPECT_EQ(contact.mesh[0].friction, 0.1);

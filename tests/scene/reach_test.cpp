@@ -93,7 +93,7 @@ TEST(Reach, IsNotGuessedWhereTheGrainsVolumeDoesNotTellIt) {
     empty.container.shape = Container::Shape::none;
     weightless.gravity = {0, 0, 0};
     tilted.gravity = {0, 9.81 * std::sin(0.5), -9.81 * std::cos(0.5)};
-    planes.walls = {FreeWall{}};
+    planes.walls = {ScenePlane{}};
     for (const FilmedScene& scene : {empty, weightless, tilted, planes}) {
         EXPECT_FALSE(resting_top(scene));
         EXPECT_FALSE(estimated_reach(scene));

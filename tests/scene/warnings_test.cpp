@@ -181,9 +181,9 @@ TEST(PlanDamping, KeepsTheRestitutionThatIsAskedForAtEverySize) {
     asked.push_back("contact.restitution=0.5");
     const FilmedScene scene = read_text(nut_text, asked);
     const Plan plan = make_plan(scene);
-    for (const Touching& t : extremes(scene.species[0], &scene.species[0]))
+    for (const PairSizes& t : extremes(scene.species[0], &scene.species[0]))
         EXPECT_NEAR(restitution_of(plan.between(0, 0), t.effective_mass), 0.5, 1e-12);
-    for (const Touching& t : extremes(scene.species[0], nullptr))
+    for (const PairSizes& t : extremes(scene.species[0], nullptr))
         EXPECT_NEAR(restitution_of(plan.wall[0], t.effective_mass), 0.5, 1e-12);
     const RestitutionRange range =
         restitution_range(plan, plan.between(0, 0), scene.species[0], &scene.species[0]);
@@ -205,7 +205,7 @@ TEST(PlanDamping, ThatIsGivenStaysAndTheRangeIsTold) {
     EXPECT_EQ(pair.normal_damping, 500);
     EXPECT_EQ(pair.damping_by_root, 0);
     const RestitutionRange range = restitution_range(plan, pair, scene.species[0], &scene.species[0]);
-    const std::vector<Touching> sizes = extremes(scene.species[0], &scene.species[0]);
+    const std::vector<PairSizes> sizes = extremes(scene.species[0], &scene.species[0]);
     EXPECT_NEAR(range.high, restitution_of(pair, sizes.front().effective_mass), 1e-12);
     EXPECT_NEAR(range.low, restitution_of(pair, sizes.back().effective_mass), 1e-12);
     EXPECT_LT(range.low, range.high - 0.02);
@@ -221,7 +221,7 @@ TEST(PlanDamping, ARestitutionThatFallsWithSpeedHasARangeToo) {
         const double natural = std::sqrt(pair.loading_stiffness / mass);
         return std::sqrt(natural / (natural + pair.hardening * plan.impact_speed));
     };
-    const std::vector<Touching> sizes = extremes(scene.species[0], &scene.species[0]);
+    const std::vector<PairSizes> sizes = extremes(scene.species[0], &scene.species[0]);
     const RestitutionRange range = restitution_range(plan, pair, scene.species[0], &scene.species[0]);
     EXPECT_NEAR(range.high, e(sizes.front().effective_mass), 1e-12);
     EXPECT_NEAR(range.low, e(sizes.back().effective_mass), 1e-12);

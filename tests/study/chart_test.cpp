@@ -23,7 +23,7 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 using testing::Not;
-using State = MemberResult::State;
+using Status = MemberResult::Status;
 
 TEST(StudyChartLabels, HaveTheUnitUnlessTheyNameIt) {
     EXPECT_EQ(axis_title("kinetic energy, mean", "J"), "kinetic energy, mean (J)");
@@ -46,7 +46,7 @@ struct Made {
         members = make_members(study, [](const FilmedScene&, const Plan&) {});
         for (std::size_t m = 0; m < members.size(); ++m) {
             MemberResult result;
-            result.state = State::complete;
+            result.status = Status::complete;
             result.values = {0, static_cast<double>(m)};
             results.push_back(result);
         }
@@ -71,7 +71,7 @@ TEST(StudyChartPoints, AreMeansOverSeedsAlone) {
 
 TEST(StudyChartPoints, LeaveOutWhatIsNotThere) {
     Made made(small_study);
-    made.results[0].state = State::failed;
+    made.results[0].status = Status::failed;
     made.results[0].values.clear();
     made.results[2].values[1] = std::numeric_limits<double>::quiet_NaN();
     const std::vector<ChartSeries> series =
@@ -103,7 +103,7 @@ TEST(StudyChartLabels, StandOnTheChartWithTheirUnits) {
 
 TEST(StudyTable, HasARowAMember) {
     Made made(small_study);
-    made.results[1].state = State::failed;
+    made.results[1].status = Status::failed;
     made.results[1].values.clear();
     made.results[1].error = "it blew up, \"loudly\"";
     const std::string table = study_table(made.study, made.members, made.results);
@@ -185,7 +185,7 @@ TEST(StudyCharts, AreDrawnWhateverTheNames) {
     EXPECT_THAT(svg, Not(HasSubstr("<script>")));
     EXPECT_TRUE(std::filesystem::exists(made.folder.path() / "charts" / (charts.stems[0] + ".png")));
     EXPECT_FALSE(std::filesystem::exists(made.folder.path() / "charts" / "hit"));
-    made.results[3].state = State::failed;
+    made.results[3].status = Status::failed;
     made.results[3].error = hostile;
     const std::string page =
         study_page(made.study, made.members, made.results, {made.folder.path()}, charts.stems);

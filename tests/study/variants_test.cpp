@@ -98,7 +98,7 @@ TEST(StudyVariants, AreAColumnALineOfAChartAndARowOfThePage) {
     std::vector<MemberResult> results;
     for (std::size_t m = 0; m < members.size(); ++m) {
         MemberResult result;
-        result.state = MemberResult::State::complete;
+        result.status = MemberResult::Status::complete;
         result.values = {static_cast<double>(m)};
         results.push_back(result);
     }

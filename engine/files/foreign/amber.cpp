@@ -355,7 +355,7 @@ RawFrame AmberFile::frame_at(std::size_t index) const {
     return frame;
 }
 
-bool takes_amber(const FileHead& head) {
+bool takes_amber(const FileStart& head) {
     const std::string_view bytes = head.bytes;
     return bytes.starts_with("CDF\x01") || bytes.starts_with("CDF\x02") || bytes.starts_with("CDF\x05") ||
            bytes.starts_with(kHdf5Signature);

@@ -113,8 +113,8 @@ std::unique_ptr<ByteSource> open_bytes(const fs::path& path) {
     return std::make_unique<PlainBytes>(std::move(file));
 }
 
-FileHead unpacked_head(const fs::path& file) {
-    FileHead head;
+FileStart unpacked_head(const fs::path& file) {
+    FileStart head;
     head.path = file;
     head.size = FileBytes(file).state().size;
     head.bytes.resize(kHeadBytes);

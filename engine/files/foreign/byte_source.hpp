@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 
 namespace grainreel {
 
@@ -18,7 +18,7 @@ enum class Packing { none, gzip, zstd };
 // The first kHeadBytes of a file's content, unpacked. Throws UserError where the file is no ordinary file,
 // cannot be opened, or is packed in a way that is not read (such as xz, bzip2 and zip, which are refused by
 // name).
-FileHead unpacked_head(const std::filesystem::path& file);
+FileStart unpacked_head(const std::filesystem::path& file);
 
 // A stream of a file's content from its beginning.
 class ByteSource {

@@ -76,7 +76,7 @@ void ForeignArchive::list_moments() {
         even = even &&
                std::abs(times[k] - static_cast<double>(raw_steps_[k]) * tick) <= 1e-9 * std::abs(times[k]);
     if (times.size() == 1 && !world_.time_known) {
-        Frame& moment = moments_.emplace_back();
+        State& moment = moments_.emplace_back();
         moment.step = raw_steps_.front();
         return;
     }
@@ -88,7 +88,7 @@ void ForeignArchive::list_moments() {
         even = false;
     }
     for (std::size_t k = 0; k < times.size(); ++k) {
-        Frame moment;
+        State moment;
         moment.step = even ? raw_steps_[k] : std::llround(times[k] / tick);
         moment.time = static_cast<double>(moment.step) * tick;
         moments_.push_back(moment);
@@ -239,7 +239,7 @@ void ForeignArchive::make_species() {
     if (!moments_.empty() && types_.words().size() > 0) {
         const RawFrame& frame = raw(first);
         const std::vector<double> densities = meaning_->densities(frame, types_);
-        const Frame grains = meaning_->frame(frame, types_, grains_->place(first));
+        const State grains = meaning_->frame(frame, types_, grains_->place(first));
         std::vector<double> sums(types_.words().size(), 0);
         for (std::size_t i = 0; i < grains.size(); ++i) {
             const auto species = static_cast<std::size_t>(grains.species[i]);
@@ -266,32 +266,32 @@ bool ForeignArchive::take_types(std::size_t index) {
     return more;
 }
 
-Frame ForeignArchive::read(std::size_t index) const {
-    Frame frame = meaning_->frame(raw(index), types_, grains_->place(index));
-    const Frame& moment = moments_.at(index);
+State ForeignArchive::read(std::size_t index) const {
+    State frame = meaning_->frame(raw(index), types_, grains_->place(index));
+    const State& moment = moments_.at(index);
     frame.step = moment.step;
     frame.time = moment.time;
     frame.bodies = moment.bodies;
     return frame;
 }
 
-Frame ForeignArchive::grains(std::size_t index) const {
-    Frame frame = read(index);
+State ForeignArchive::grains(std::size_t index) const {
+    State frame = read(index);
     if (derived_) derive_velocities(index, frame);
     return frame;
 }
 
-std::optional<std::vector<Touch>> ForeignArchive::touches(std::size_t index) const {
+std::optional<std::vector<Link>> ForeignArchive::touches(std::size_t index) const {
     if (!has_contacts_) return std::nullopt;
     if (!contacts_) return touches_of(raw(index), options_, meaning_->units(), grains_->place(index));
     const auto found = contacts_at_.find(raw_steps_.at(index));
-    if (found == contacts_at_.end()) return std::vector<Touch>();
+    if (found == contacts_at_.end()) return std::vector<Link>();
     return touches_of(contacts_->read(found->second), options_, meaning_->units(),
                       contacts_->place(found->second));
 }
 
-FrameSupply ForeignArchive::supply() const {
-    FrameSupply supply;
+StateSupply ForeignArchive::supply() const {
+    StateSupply supply;
     supply.velocities = meaning_->has_velocities() || derived_;
     supply.spins = meaning_->has_spins();
     supply.orientations = meaning_->has_orientations();
@@ -323,9 +323,9 @@ void ForeignArchive::decide_velocities() {
         return;
     const std::size_t middle = (moments_.size() - 1) / 2;
     take_types(middle);
-    const Frame before = read(middle);
+    const State before = read(middle);
     take_types(middle + 1);
-    const Frame after = read(middle + 1);
+    const State after = read(middle + 1);
     std::size_t near = 0, both = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const std::optional<std::size_t> row = after.row_of(before.id[i]);
@@ -343,10 +343,10 @@ void ForeignArchive::decide_velocities() {
 }
 
 // Velocities by central differences. At the first and last moment of a grain, one neighbour is used.
-void ForeignArchive::derive_velocities(std::size_t index, Frame& frame) const {
+void ForeignArchive::derive_velocities(std::size_t index, State& frame) const {
     const bool has_before = index > 0, has_after = index + 1 < moments_.size();
-    const Frame before = has_before ? read(index - 1) : Frame(),
-                after = has_after ? read(index + 1) : Frame();
+    const State before = has_before ? read(index - 1) : State(),
+                after = has_after ? read(index + 1) : State();
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const std::optional<std::size_t> was = before.row_of(frame.id[i]), will = after.row_of(frame.id[i]);
         Vec3 ways(0, 0, 0);

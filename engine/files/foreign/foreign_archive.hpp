@@ -1,4 +1,4 @@
-// A run of another program as a FrameArchive: grains, contacts and walls from its files, in SI units. Three
+// A run of another program as a StateArchive: grains, contacts and walls from its files, in SI units. Three
 // sources belong to it: foreign_files.cpp chooses the files, foreign_walls.cpp follows walls, and
 // foreign_archive.cpp does the rest. The formats are read elsewhere (raw_file.hpp); nothing here depends on a
 // single format.
@@ -15,7 +15,7 @@
 #include "engine/files/foreign/grain_columns.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/raw_series.hpp"
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/pose.hpp"
 
@@ -59,7 +59,7 @@ inline constexpr double kUntimedRate = 25;  // 1/s
 // files that is not a run of ours.
 bool is_foreign(const std::filesystem::path& path);
 
-class ForeignArchive final : public FrameArchive {
+class ForeignArchive final : public StateArchive {
   public:
     // The frames in which types are looked for. some: all frames of small files and 64 of others, so that a
     // question about one frame need not wait long. first: only the first frame with grains, for code that
@@ -73,11 +73,11 @@ class ForeignArchive final : public FrameArchive {
                    Looks looks = Looks::some);
 
     const std::filesystem::path& path() const override { return path_; }
-    const World& world() const override { return world_; }
-    FrameSupply supply() const override;
-    const std::vector<Frame>& moments() const override { return moments_; }
-    Frame grains(std::size_t index) const override;
-    std::optional<std::vector<Touch>> touches(std::size_t index) const override;
+    const StoredWorld& world() const override { return world_; }
+    StateSupply supply() const override;
+    const std::vector<State>& moments() const override { return moments_; }
+    State grains(std::size_t index) const override;
+    std::optional<std::vector<Link>> touches(std::size_t index) const override;
     bool has_contacts_of(std::size_t) const override { return has_contacts_; }
     std::vector<std::string> news() const override { return news_; }
 
@@ -118,8 +118,8 @@ class ForeignArchive final : public FrameArchive {
     void match_walls();
     static void rest_at_first(MovingWall& wall, std::size_t first);
     void decide_velocities();
-    Frame read(std::size_t index) const;
-    void derive_velocities(std::size_t index, Frame& frame) const;
+    State read(std::size_t index) const;
+    void derive_velocities(std::size_t index, State& frame) const;
 
     std::filesystem::path path_;
     ReadingOptions options_;
@@ -130,8 +130,8 @@ class ForeignArchive final : public FrameArchive {
     std::vector<std::filesystem::path> all_files_;
     std::optional<GrainMeaning> meaning_;
     TypeList types_;
-    World world_;
-    std::vector<Frame> moments_;
+    StoredWorld world_;
+    std::vector<State> moments_;
     std::vector<std::int64_t> raw_steps_;              // steps of the moments as in the files
     std::map<std::int64_t, std::size_t> contacts_at_;  // for each step: its place in contacts_
     std::vector<MovingWall> walls_;

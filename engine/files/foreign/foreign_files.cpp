@@ -185,17 +185,17 @@ void ForeignArchive::add_companions(const fs::path& file) {
 
 namespace {
 
-bool takes(const FileHead& head) {
+bool takes(const FileStart& head) {
     return is_foreign(head.path);
 }
 
-std::unique_ptr<FrameArchive> open(const std::filesystem::path& path, const FrameRequest& request) {
+std::unique_ptr<StateArchive> open(const std::filesystem::path& path, const OpenRequest& request) {
     return std::make_unique<ForeignArchive>(path, request.reading);
 }
 
 }  // namespace
 
-FrameReader foreign_reader() {
+ReadFormat foreign_reader() {
     return {"foreign",
             "files of other programs: LAMMPS, LIGGGHTS, MercuryDPM, YADE, Lethe, VTK, XYZ, GSD, AMBER, CSV",
             takes, open};

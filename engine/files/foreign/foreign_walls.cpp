@@ -264,7 +264,7 @@ void ForeignArchive::match_walls() {
         if (k == 0)
             for (std::size_t w = 0; w < walls_.size(); ++w) rest_at_first(walls_[w], at[w]);
         wall_at_.push_back(std::move(at));
-        Frame& moment = moments_[k];
+        State& moment = moments_[k];
         moment.bodies.resize(kFirstPlaneBody + walls_.size());
         for (std::size_t w = 0; w < walls_.size(); ++w)
             moment.bodies[kFirstPlaneBody + w] = walls_[w].poses[wall_at_[k][w]];

@@ -18,7 +18,7 @@ namespace grainreel {
 namespace {
 
 constexpr const char* kAxes = "xyz";
-constexpr double kMostId = 2147483646;  // ids have 32 bits in a Frame
+constexpr double kMostId = 2147483646;  // ids have 32 bits in a State
 
 UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const std::string& file) {
     const std::string& name = options.units.empty() ? facts.units : options.units;
@@ -265,7 +265,7 @@ std::vector<std::size_t> by_rising(const std::vector<std::int32_t>& ids) {
 
 }  // namespace
 
-Frame GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std::string& place) const {
+State GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std::string& place) const {
     const RawTable& table = raw.grains;
     check_columns(table, place);
     std::vector<std::int32_t> ids(table.rows);
@@ -277,7 +277,7 @@ Frame GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
         ids[row] = static_cast<std::int32_t>(number);
     }
     const std::vector<std::size_t> order = by_rising(ids);
-    Frame frame;
+    State frame;
     std::optional<std::size_t> species;
     double last_type = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -342,8 +342,8 @@ std::vector<double> GrainMeaning::densities(const RawFrame& raw, const TypeList&
     return sums;
 }
 
-std::optional<std::vector<Touch>> touches_of(const RawFrame& raw, const ReadingOptions& options,
-                                             const UnitSystem& units, const std::string& file) {
+std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOptions& options,
+                                            const UnitSystem& units, const std::string& file) {
     const RawTable& table = raw.contacts;
     const auto first = column_for("id1", table, options, file),
                second = column_for("id2", table, options, file);
@@ -352,9 +352,9 @@ std::optional<std::vector<Touch>> touches_of(const RawFrame& raw, const ReadingO
     const auto fx = column_for("fx", table, options, file), fy = column_for("fy", table, options, file),
                fz = column_for("fz", table, options, file);
     const auto at = [&](std::size_t column, std::size_t row) { return table.columns[column].values[row]; };
-    std::vector<Touch> touches;
+    std::vector<Link> touches;
     for (std::size_t row = 0; row < table.rows; ++row) {
-        Touch touch{};
+        Link touch{};
         const double a = at(*first, row), b = at(*second, row);
         if (!(std::abs(a) <= kMostId && std::abs(b) <= kMostId)) continue;
         touch.first = static_cast<std::int32_t>(a);

@@ -12,10 +12,10 @@
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/files/frames/frame_archive.hpp"
-#include "engine/frame.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/scene/text/units.hpp"
 #include "engine/state/contact.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -59,7 +59,7 @@ class GrainMeaning {
     // The grains of a frame by rising id, in SI. place: "run.dump: frame 3", for messages. Throws UserError
     // for a radius that is not positive, an id that comes twice or is not a whole number, and a type that is
     // not in the list.
-    Frame frame(const RawFrame& raw, const TypeList& types, const std::string& place) const;
+    State frame(const RawFrame& raw, const TypeList& types, const std::string& place) const;
     // Mean density of each type in kg/m3 from columns of density or mass; NaN where it is not known.
     std::vector<double> densities(const RawFrame& raw, const TypeList& types) const;
     // The box of a frame in m.
@@ -101,7 +101,7 @@ class GrainMeaning {
 
 // The contacts of a frame by ids, with forces in N; wall k is -1 - k. None where the table has no pairs of
 // ids.
-std::optional<std::vector<Touch>> touches_of(const RawFrame& raw, const ReadingOptions& options,
-                                             const UnitSystem& units, const std::string& file);
+std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOptions& options,
+                                            const UnitSystem& units, const std::string& file);
 
 }  // namespace grainreel

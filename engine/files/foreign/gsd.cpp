@@ -245,7 +245,7 @@ RawFrame GsdFrames::read(std::size_t index) const {
     return frame;
 }
 
-bool takes_gsd(const FileHead& head) {
+bool takes_gsd(const FileStart& head) {
     constexpr std::string_view magic = "\xdf\x65\xdf\x65\xdf\x65\xdf\x65";
     return std::string_view(head.bytes).starts_with(magic);
 }

@@ -33,7 +33,7 @@ const std::vector<RawFormat>& raw_formats() {
 }
 
 const RawFormat* raw_format_of(const fs::path& file) {
-    const FileHead head = unpacked_head(file);
+    const FileStart head = unpacked_head(file);
     for (const RawFormat& format : raw_formats())
         if (format.takes(head)) return &format;
     return nullptr;

@@ -13,8 +13,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/triangle_mesh.hpp"
-#include "engine/files/frames/frame_archive.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/state_archive.hpp"
+#include "engine/files/frames/stored_world.hpp"
 
 namespace grainreel {
 
@@ -103,7 +103,7 @@ struct RawFormat {
     const char* name;   // "lammps-dump"
     const char* about;  // "dumps of LAMMPS and LIGGGHTS (text)", for the list of what can be read
     // Whether this format reads the file. The content decides, not the name. head.bytes are unpacked.
-    bool (*takes)(const FileHead& head);
+    bool (*takes)(const FileStart& head);
     std::unique_ptr<RawFile> (*open)(const std::filesystem::path& file);
 };
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 
 namespace grainreel {
 

@@ -10,9 +10,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 
-// All readers in the order in which they are asked. NAME stands for a function FrameReader NAME_reader() in
+// All readers in the order in which they are asked. NAME stands for a function ReadFormat NAME_reader() in
 // engine/files/frames/readers.
 #define GRAINREEL_FRAME_READERS(one) \
     one(run_folder) one(trajectory) one(checkpoint) one(grain_table) one(foreign)
@@ -21,14 +21,14 @@ namespace grainreel {
 
 namespace fs = std::filesystem;
 
-#define GRAINREEL_DECLARE(name) FrameReader name##_reader();
+#define GRAINREEL_DECLARE(name) ReadFormat name##_reader();
 GRAINREEL_FRAME_READERS(GRAINREEL_DECLARE)
 #undef GRAINREEL_DECLARE
 
 namespace {
 
-FileHead head_of(const fs::path& path) {
-    FileHead head;
+FileStart head_of(const fs::path& path) {
+    FileStart head;
     head.path = path;
     if (is_pattern(path)) return head;
     std::error_code error;
@@ -49,23 +49,23 @@ FileHead head_of(const fs::path& path) {
 [[noreturn]] void refuse(const fs::path& path) {
     std::vector<std::string> known;
     for (const auto& reader : own_readers()) known.emplace_back(reader->about());
-    for (const FrameReader& reader : frame_readers()) known.emplace_back(reader.about);
+    for (const ReadFormat& reader : frame_readers()) known.emplace_back(reader.about);
     throw UserError(fmt::format("{}: holds no frames that can be read; give {}", path.string(),
                                 fmt::join(known, ", or ")));
 }
 
 }  // namespace
 
-const std::vector<FrameReader>& frame_readers() {
+const std::vector<ReadFormat>& frame_readers() {
 #define GRAINREEL_LIST(name) name##_reader(),
-    static const std::vector<FrameReader> all{GRAINREEL_FRAME_READERS(GRAINREEL_LIST)};
+    static const std::vector<ReadFormat> all{GRAINREEL_FRAME_READERS(GRAINREEL_LIST)};
 #undef GRAINREEL_LIST
     return all;
 }
 
-const FrameReader* reader_of(const fs::path& path) {
-    const FileHead head = head_of(path);
-    for (const FrameReader& reader : frame_readers())
+const ReadFormat* reader_of(const fs::path& path) {
+    const FileStart head = head_of(path);
+    for (const ReadFormat& reader : frame_readers())
         if (reader.takes(head)) return &reader;
     return nullptr;
 }
@@ -74,10 +74,10 @@ namespace {
 
 // Opens the file by a reader that the calling program has added; null where none reads it. Most programs add
 // no reader.
-std::unique_ptr<FrameArchive> open_by_own_reader(const fs::path& path, const FrameRequest& request) {
+std::unique_ptr<StateArchive> open_by_own_reader(const fs::path& path, const OpenRequest& request) {
     const std::vector<std::shared_ptr<const OwnReader>> readers = own_readers();
     if (readers.empty()) return nullptr;
-    const FileHead head = head_of(path);
+    const FileStart head = head_of(path);
     for (const std::shared_ptr<const OwnReader>& reader : readers)
         if (request.format.empty() ? reader->takes(head) : request.format == reader->name())
             return reader->open(path, request);
@@ -86,21 +86,21 @@ std::unique_ptr<FrameArchive> open_by_own_reader(const fs::path& path, const Fra
 
 }  // namespace
 
-std::unique_ptr<FrameArchive> open_frames(const fs::path& path, const FrameRequest& request) {
-    if (std::unique_ptr<FrameArchive> own = open_by_own_reader(path, request)) {
+std::unique_ptr<StateArchive> open_frames(const fs::path& path, const OpenRequest& request) {
+    if (std::unique_ptr<StateArchive> own = open_by_own_reader(path, request)) {
         if (own->moments().empty()) throw UserError(fmt::format("{}: holds no frame", path.string()));
         return own;
     }
     if (request.format.empty()) {
-        const FrameReader* reader = reader_of(path);
+        const ReadFormat* reader = reader_of(path);
         if (reader == nullptr) refuse(path);
-        std::unique_ptr<FrameArchive> frames = reader->open(path, request);
+        std::unique_ptr<StateArchive> frames = reader->open(path, request);
         if (!frames->moments().empty()) return frames;
         const std::vector<std::string> damage = frames->damage();
         throw UserError(damage.empty() ? fmt::format("{}: holds no frame yet", path.string())
                                        : damage.front());
     }
-    for (const FrameReader& reader : frame_readers())
+    for (const ReadFormat& reader : frame_readers())
         if (request.format == reader.name) return reader.open(path, request);
     throw UserError(fmt::format("{}: there is no reader called {}", path.string(), request.format));
 }

@@ -14,7 +14,7 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
 
 namespace grainreel {
 
@@ -52,7 +52,8 @@ void check_times(const Scene& scene, double step_length, double step, double tim
                                               : "no drive"));
 }
 
-void check_pose(const Drive& drive, const BodyPose& pose, const Pose& by_scene, const std::string& what) {
+void check_pose(const Drive& drive, const BodyPose& pose, const DrivePose& by_scene,
+                const std::string& what) {
     const auto near = [](const Vec3& a, const Vec3& b, double scale) {
         return (a - b).norm() <= same_place * std::max(scale, a.norm());
     };
@@ -81,7 +82,8 @@ void check_own_pose(const BodyPose& pose, const BodyPose& by_scene, const std::s
 }
 
 // Checks the pose of the container, if it turns, and of the meshes.
-void check_own_poses(const Scene& scene, const Pose& drive, const Frame& moment, const std::string& frame) {
+void check_own_poses(const Scene& scene, const DrivePose& drive, const State& moment,
+                     const std::string& frame) {
     const std::vector<Body> bodies = bodies_of(scene);
     if (scene.container.turn)
         check_own_pose(moment.container(), bodies[kContainerBody].at(drive), frame + " has the container");
@@ -94,13 +96,13 @@ void check_own_poses(const Scene& scene, const Pose& drive, const Frame& moment,
 
 }  // namespace
 
-void check_species(const Scene& scene, const World& world, const std::string& trajectory) {
+void check_species(const Scene& scene, const StoredWorld& world, const std::string& trajectory) {
     if (world.species.size() != scene.species.size())
         of_two_runs(fmt::format("{}: has {} species, but scene.toml beside it has {}", trajectory,
                                 world.species.size(), scene.species.size()));
 }
 
-void check_meshes(const Scene& scene, const World& in_file, const std::string& trajectory) {
+void check_meshes(const Scene& scene, const StoredWorld& in_file, const std::string& trajectory) {
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const SceneMesh& mesh = scene.meshes[m];
         const TriangleMesh& by_scene = mesh.surface->mesh();
@@ -121,7 +123,8 @@ void check_meshes(const Scene& scene, const World& in_file, const std::string& t
     }
 }
 
-void check_grains(const Scene& scene, const World& world, const Frame& frame, const std::string& trajectory) {
+void check_grains(const Scene& scene, const StoredWorld& world, const State& frame,
+                  const std::string& trajectory) {
     const auto grains = static_cast<std::int64_t>(world.most_grains);
     if (grains != scene.grains() && !world.traffic)
         of_two_runs(fmt::format("{}: has {}, but scene.toml beside it has {}", trajectory,
@@ -144,7 +147,7 @@ void check_grains(const Scene& scene, const World& world, const Frame& frame, co
                                     scene.species[s].count));
 }
 
-void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame) {
+void check_drive(const Scene& scene, const Clock& clock, const State& moment, const std::string& frame) {
     check_times(scene, clock.step, static_cast<double>(moment.step), moment.time, moment.cycles, frame);
     const double turns = moment.phase - moment.cycles - clock.initial_phase;
     if (scene.drive.present && std::abs(turns - std::round(turns)) > same_time)
@@ -153,12 +156,13 @@ void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, co
                         "it begins at phase {:.4g}",
                         frame, moment.phase, moment.cycles, scene.drive.phase));
     if (clock.step <= 0) return;
-    const Pose drive = WallMotion(scene.drive, clock).at(moment.step);
+    const DrivePose drive = DriveMotion(scene.drive, clock).at(moment.step);
     const bool all_moves = scene.drive.moves == Drive::Moves::container;
     check_own_poses(scene, drive, moment, frame);
     if (scene.container.turn) return;
     check_pose(scene.drive, moment.floor(), drive, frame + " has the floor");
-    check_pose(scene.drive, moment.container(), all_moves ? drive : Pose(), frame + " has the container");
+    check_pose(scene.drive, moment.container(), all_moves ? drive : DrivePose(),
+               frame + " has the container");
 }
 
 namespace {
@@ -167,26 +171,26 @@ namespace {
 struct Pair {
     std::size_t row, frame;
 };
-std::vector<Pair> moments_of_both(const std::vector<double>& steps, const std::vector<Frame>& moments) {
+std::vector<Pair> moments_of_both(const std::vector<double>& steps, const std::vector<State>& moments) {
     std::vector<Pair> pairs;
     for (std::size_t row = steps.size(); row-- > 0;) {
         const auto moment = std::lower_bound(
             moments.begin(), moments.end(), steps[row],
-            [](const Frame& one, double step) { return static_cast<double>(one.step) < step; });
+            [](const State& one, double step) { return static_cast<double>(one.step) < step; });
         if (moment != moments.end() && static_cast<double>(moment->step) == steps[row])
             pairs.push_back({row, static_cast<std::size_t>(moment - moments.begin())});
     }
     return pairs;
 }
 
-double mean_height(const Frame& frame, std::size_t species) {
+double mean_height(const State& frame, std::size_t species) {
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < frame.size(); ++i)
         if (static_cast<std::size_t>(frame.species[i]) == species) sum += frame.position[i].z(), ++count;
     return sum / count;
 }
 
-void check_heights(const Scene& scene, const MeasureTable& table, std::size_t row, const Frame& frame,
+void check_heights(const Scene& scene, const MeasureTable& table, std::size_t row, const State& frame,
                    const std::string& measures) {
     for (std::size_t s = 0; s < scene.species.size(); ++s) {
         const auto column = table.find(scene.species[s].name + "_centre_z_m");
@@ -218,7 +222,7 @@ void check_rows(double step_length, const std::vector<double>& steps, const std:
 
 }  // namespace
 
-void check_measured(const Scene& scene, const MeasureTable& table, const Frame& frame,
+void check_measured(const Scene& scene, const MeasureTable& table, const State& frame,
                     const std::string& measures) {
     const std::vector<double> steps = table.all("step");
     const auto row_of_step = std::lower_bound(steps.begin(), steps.end(), static_cast<double>(frame.step));
@@ -228,7 +232,7 @@ void check_measured(const Scene& scene, const MeasureTable& table, const Frame& 
 }
 
 void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
-                    const FrameArchive& trajectory, const std::string& measures) {
+                    const StateArchive& trajectory, const std::string& measures) {
     const std::vector<double> steps = table.all("step"), times = table.all("time_s"),
                               cycles = table.all("cycles");
     if (steps.empty() || times.empty() || cycles.empty()) return;
@@ -246,7 +250,7 @@ void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& 
     }
 }
 
-void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
+void check_contacts(const Scene& scene, const std::vector<Link>& touches, const State& frame,
                     const std::string& contacts) {
     // Largest distance of two centres that still counts as touching, divided by the sum of the radii. In a
     // contact it is less than 1.
@@ -258,7 +262,7 @@ void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const
         way.x() = nearest_image(way.x(), depth);
         return way.norm() > room * (frame.radius[a] + frame.radius[b]);
     };
-    for (const Touch& touch : touches) {
+    for (const Link& touch : touches) {
         const auto first = index_of(touch.first);
         const auto second = touch.second < 0 ? first : index_of(touch.second);  // it is a wall
         if (first && second && (touch.second < 0 || !apart(*first, *second))) continue;

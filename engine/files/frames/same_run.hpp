@@ -6,30 +6,31 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
 // Compares names and densities of species. trajectory, and measures below: names of the files, for messages.
-void check_species(const Scene& scene, const World& world, const std::string& trajectory);
+void check_species(const Scene& scene, const StoredWorld& world, const std::string& trajectory);
 // Compares the shapes of meshes. in_file: the world according to the trajectory.
-void check_meshes(const Scene& scene, const World& in_file, const std::string& trajectory);
+void check_meshes(const Scene& scene, const StoredWorld& in_file, const std::string& trajectory);
 // Compares the number of grains, and in one frame the number and sizes of the grains of each species.
-void check_grains(const Scene& scene, const World& world, const Frame& frame, const std::string& trajectory);
+void check_grains(const Scene& scene, const StoredWorld& world, const State& frame,
+                  const std::string& trajectory);
 // Compares step, periods and phase of a moment, and the places of container and meshes at that time. frame:
 // "x.nc: frame 3".
-void check_drive(const Scene& scene, const Clock& clock, const Frame& moment, const std::string& frame);
+void check_drive(const Scene& scene, const Clock& clock, const State& moment, const std::string& frame);
 // Compares times and periods of the rows, and the grains' centre of mass at a moment that both files have.
 void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& table,
-                    const FrameArchive& trajectory, const std::string& measures);
+                    const StateArchive& trajectory, const std::string& measures);
 // Compares the grains' centre of mass at a moment if the table has a row for it. If two files disagree only
 // at one moment, they are of one run and one of them was altered.
-void check_measured(const Scene& scene, const MeasureTable& table, const Frame& frame,
+void check_measured(const Scene& scene, const MeasureTable& table, const State& frame,
                     const std::string& measures);
 // Checks that grains in contact touch in the frame.
-void check_contacts(const Scene& scene, const std::vector<Touch>& touches, const Frame& frame,
+void check_contacts(const Scene& scene, const std::vector<Link>& touches, const State& frame,
                     const std::string& contacts);
 
 }  // namespace grainreel

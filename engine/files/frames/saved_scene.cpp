@@ -84,9 +84,9 @@ Clock clock_of_steps(const Scene& scene, double step) {
     return drive_clock(scene.drive, clock.step, std::llround(1 / (scene.drive.frequency * clock.step)));
 }
 
-Clock clock_of(const Scene& scene, const std::vector<Frame>& moments) {
+Clock clock_of(const Scene& scene, const std::vector<State>& moments) {
     double step = 0;
-    for (const Frame& moment : moments)
+    for (const State& moment : moments)
         if (moment.step != 0) step = moment.time / static_cast<double>(moment.step);
     // The quotient may differ from the scene's own step by rounding. Then the scene's step is used.
     if (scene.run.step && std::abs(step - *scene.run.step) <= 1e-12 * step) step = *scene.run.step;

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -43,6 +43,6 @@ Scene scene_of_checkpoint(const std::filesystem::path& checkpoint);
 Clock clock_of_steps(const Scene& scene, double step);
 
 // The clock of these moments, from their times and steps. Its step is 0 when all are at step 0.
-Clock clock_of(const Scene& scene, const std::vector<Frame>& moments);
+Clock clock_of(const Scene& scene, const std::vector<State>& moments);
 
 }  // namespace grainreel

@@ -28,7 +28,7 @@
 #include "engine/files/damage.hpp"
 #include "engine/files/file_facts.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -85,7 +85,7 @@ class TrajectoryWriter {
 
     // The frame is in the file when this returns, and stays readable if the program is killed. Throws
     // RunError when it could not be written (disk full); earlier frames stay readable.
-    void write(const Frame& frame);
+    void write(const State& frame);
 
     std::int64_t frames() const;
 
@@ -112,9 +112,9 @@ class TrajectoryReader {
 
     // A frame, 0 <= index < frames(). read() and read_moment() throw DamagedFrame, and UserError when the
     // file cannot be read.
-    Frame read(std::size_t index) const;
+    State read(std::size_t index) const;
     // The frame without its grains, which are most of the work: time, phase and poses only.
-    Frame read_moment(std::size_t index) const;
+    State read_moment(std::size_t index) const;
 
   private:
     struct Impl;

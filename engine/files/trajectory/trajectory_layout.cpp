@@ -173,7 +173,7 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::
     for (const Species& species : scene.species) info.species.push_back(species.name);
     info.capacity = static_cast<std::size_t>(plan.capacity);
     info.traffic = plan.traffic;
-    for (const FreeWall& wall : scene.walls) info.bodies.push_back(wall.name);
+    for (const ScenePlane& wall : scene.walls) info.bodies.push_back(wall.name);
     for (const SceneMesh& mesh : scene.meshes) {
         info.meshes.push_back({kFirstPlaneBody + info.bodies.size(), mesh.shape()});
         info.bodies.push_back(mesh.name);

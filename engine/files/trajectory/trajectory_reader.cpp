@@ -133,14 +133,14 @@ struct TrajectoryReader::Impl {
     }
 
     struct Moment {
-        Frame frame;  // without its grains
+        State frame;  // without its grains
         std::size_t grains = 0;
     };
     Moment read_moment(std::size_t index) const;
-    void read_turn(std::size_t index, Frame& frame, Checksum& sum) const;
-    void read_bodies(std::size_t index, Frame& frame, Checksum& sum) const;
+    void read_turn(std::size_t index, State& frame, Checksum& sum) const;
+    void read_bodies(std::size_t index, State& frame, Checksum& sum) const;
     std::vector<std::size_t> places_of(std::size_t index, std::size_t n) const;
-    void read_grains(std::size_t index, std::size_t n, Frame& frame) const;
+    void read_grains(std::size_t index, std::size_t n, State& frame) const;
 
     std::string source;  // for messages
     NetcdfFile file;
@@ -154,7 +154,7 @@ TrajectoryReader::Impl::Moment TrajectoryReader::Impl::read_moment(std::size_t i
     auto variable = frame_variables.begin();
     const auto number = [&] { return read<double>(*variable++, index, 0, 1, sum).front(); };
     const auto vector = [&] { return Vec3(read<double>(*variable++, index, 0, 3, sum).data()); };
-    Frame frame;
+    State frame;
     frame.time = number();
     frame.cycles = number();
     frame.phase = number();
@@ -177,7 +177,7 @@ TrajectoryReader::Impl::Moment TrajectoryReader::Impl::read_moment(std::size_t i
     return {std::move(frame), static_cast<std::size_t>(count)};
 }
 
-void TrajectoryReader::Impl::read_turn(std::size_t index, Frame& frame, Checksum& sum) const {
+void TrajectoryReader::Impl::read_turn(std::size_t index, State& frame, Checksum& sum) const {
     auto variable = turn_variables.begin();
     const auto next = [&](std::size_t width) { return read<double>(*variable++, index, 0, width, sum); };
     for (BodyPose* pose : {&frame.container(), &frame.floor()}) {
@@ -187,7 +187,7 @@ void TrajectoryReader::Impl::read_turn(std::size_t index, Frame& frame, Checksum
 }
 
 // The poses of planes and meshes; container and floor have theirs already.
-void TrajectoryReader::Impl::read_bodies(std::size_t index, Frame& frame, Checksum& sum) const {
+void TrajectoryReader::Impl::read_bodies(std::size_t index, State& frame, Checksum& sum) const {
     const std::size_t bodies = info.bodies.size();
     if (bodies == 0) return;
     auto variable = body_variables.begin();
@@ -230,7 +230,7 @@ Places TrajectoryReader::Impl::places_of(std::size_t index, std::size_t n) const
     return places;
 }
 
-void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, Frame& frame) const {
+void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, State& frame) const {
     Checksum sum = begin_sum(index);
     auto variable = grain_variables.begin();
     const std::size_t places = info.capacity;
@@ -274,14 +274,14 @@ const TrajectoryInfo& TrajectoryReader::info() const {
     return impl_->info;
 }
 
-Frame TrajectoryReader::read(std::size_t index) const {
+State TrajectoryReader::read(std::size_t index) const {
     GRAINREEL_CHECK(index < impl_->frames);
     Impl::Moment moment = impl_->read_moment(index);
     impl_->read_grains(index, moment.grains, moment.frame);
     return std::move(moment.frame);
 }
 
-Frame TrajectoryReader::read_moment(std::size_t index) const {
+State TrajectoryReader::read_moment(std::size_t index) const {
     GRAINREEL_CHECK(index < impl_->frames);
     return impl_->read_moment(index).frame;
 }

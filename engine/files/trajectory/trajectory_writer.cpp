@@ -39,20 +39,20 @@ struct TrajectoryWriter::Impl {
     void define_variable(const TrajectoryVariable& variable, const char* of);
     void write_labels();
     Checksum begin_sum() const { return begin_checksum(frames, places, info.species, info.orientation); }
-    void write_pose(const Frame& frame);
-    void write_turn(const Frame& frame, Checksum& sum);
-    void write_bodies(const Frame& frame, Checksum& sum);
-    void write_grains(const Frame& frame);
+    void write_pose(const State& frame);
+    void write_turn(const State& frame, Checksum& sum);
+    void write_bodies(const State& frame, Checksum& sum);
+    void write_grains(const State& frame);
     void write_sum(const char* variable, const Checksum& sum);
-    void keep(const Frame& frame);
-    void add_place(const Frame& frame, std::size_t i);
+    void keep(const State& frame);
+    void add_place(const State& frame, std::size_t i);
 
     std::string name;
     TrajectoryInfo info;
     std::size_t places;  // number of places for grains
     NetcdfFile file;
     std::size_t frames = 0;
-    Frame kept;                                                     // with traffic: all grains so far
+    State kept;                                                     // with traffic: all grains so far
     std::vector<int> present;                                       // for each of them: 1 if it is there now
     std::vector<std::size_t> by_id;                                 // their places by rising id
     std::map<std::string, int, std::less<>> dimensions, variables;  // by name
@@ -159,7 +159,7 @@ void TrajectoryWriter::Impl::write_labels() {
     file.sync(0);
 }
 
-void TrajectoryWriter::Impl::write_pose(const Frame& frame) {
+void TrajectoryWriter::Impl::write_pose(const State& frame) {
     Checksum sum = begin_sum();
     auto variable = frame_variables.begin();
     const auto put = [&](const auto* values, std::size_t count) {
@@ -183,7 +183,7 @@ void TrajectoryWriter::Impl::write_pose(const Frame& frame) {
     write_sum(frame_checksum, sum);
 }
 
-void TrajectoryWriter::Impl::write_turn(const Frame& frame, Checksum& sum) {
+void TrajectoryWriter::Impl::write_turn(const State& frame, Checksum& sum) {
     const TrajectoryVariable* variable = turn_variables.data();
     const auto put = [&](const double* numbers, std::size_t count) {
         file.put(variables[variable->name], {frames, 0}, {1, count}, numbers);
@@ -196,7 +196,7 @@ void TrajectoryWriter::Impl::write_turn(const Frame& frame, Checksum& sum) {
     }
 }
 
-void TrajectoryWriter::Impl::write_bodies(const Frame& frame, Checksum& sum) {
+void TrajectoryWriter::Impl::write_bodies(const State& frame, Checksum& sum) {
     const std::size_t count = info.bodies.size();
     const TrajectoryVariable* variable = body_variables.data();
     const auto put = [&](std::size_t width, const auto& of) {
@@ -233,7 +233,7 @@ std::vector<Value> rows_of(std::size_t places, const std::vector<Value>& absent,
     return rows;
 }
 
-void TrajectoryWriter::Impl::write_grains(const Frame& f) {
+void TrajectoryWriter::Impl::write_grains(const State& f) {
     Checksum sum = begin_sum();
     const TrajectoryVariable* variable = grain_variables.data();
     const auto is_here = [&](std::size_t i) { return !info.traffic || present[i] != 0; };
@@ -270,7 +270,7 @@ void TrajectoryWriter::Impl::write_grains(const Frame& f) {
 
 // Takes a frame into `kept` and `present`. A new grain gets the place after all earlier ones. In our runs its
 // id is larger than theirs; in runs of other programs it may be between them.
-void TrajectoryWriter::Impl::keep(const Frame& frame) {
+void TrajectoryWriter::Impl::keep(const State& frame) {
     present.assign(kept.size(), 0);
     std::size_t next = 0;
     for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -289,7 +289,7 @@ void TrajectoryWriter::Impl::keep(const Frame& frame) {
     }
 }
 
-void TrajectoryWriter::Impl::add_place(const Frame& frame, std::size_t i) {
+void TrajectoryWriter::Impl::add_place(const State& frame, std::size_t i) {
     if (kept.size() == places)
         throw RunError(
             fmt::format("{}: more grains came than the {} that the file has places for", name, places));
@@ -347,7 +347,7 @@ void TrajectoryWriter::write_again(const std::filesystem::path& path, std::size_
     for (std::size_t k = 0; k < frames; ++k) writer.write(reader.read(k));
 }
 
-void TrajectoryWriter::write(const Frame& frame) {
+void TrajectoryWriter::write(const State& frame) {
     GRAINREEL_CHECK(!impl_->info.orientation || frame.orientation.size() == frame.size());
     GRAINREEL_CHECK(!impl_->info.contact_numbers || frame.contact_number.size() == frame.size());
     GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.bodies.size());

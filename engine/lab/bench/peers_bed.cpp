@@ -143,7 +143,7 @@ Surroundings peers_surroundings(const PeersBed& bed, const Plan& plan) {
     drive.moves = Drive::Moves::floor;
     Surroundings around;
     around.faces = container_faces(box, drive);
-    around.motion = WallMotion(drive, plan.clock);
+    around.motion = DriveMotion(drive, plan.clock);
     around.gravity = {0, 0, -9.81};
     around.skin = 0.0002;
     return around;
@@ -179,7 +179,7 @@ SettledBed settled_bed(int grains, int threads, const std::function<bool(double)
     const PeersBed start = peers_bed(7, count - big, big, settled.side);
     const Plan plan = soft_plan();
     Surroundings around = peers_surroundings(start, plan);
-    around.motion = WallMotion(Drive{}, plan.clock);
+    around.motion = DriveMotion(Drive{}, plan.clock);
     BenchBed bed{plan, around, peers_grains(start)};
     Team team(threads);
     StepLoop loop(bed.plan, bed.around, bed.grains, team);

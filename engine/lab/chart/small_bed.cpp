@@ -8,7 +8,7 @@
 #include "engine/base/mathematics.hpp"
 #include "engine/lab/chart/validation/validation.hpp"
 #include "engine/measure/segregation/segregation.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
@@ -53,7 +53,7 @@ std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, 
     sets.push_back(fmt::format("run.duration={}", duration));
     const Scene scene = read_scene_text(bed_scene(), "small_bed.toml", sets);
     const Plan plan = make_plan(scene);
-    Simulation simulation(scene, plan, 1);
+    SimulatedBed simulation(scene, plan, 1);
     if (!simulation.pack([&](const PackingProgress&) { return goes_on(); }).finished) return std::nullopt;
 
     BedResult result;
@@ -64,7 +64,7 @@ std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, 
         if (!goes_on()) return std::nullopt;
         simulation.advance(step);
         if (2 * step < plan.steps) continue;
-        const Frame frame = simulation.frame();
+        const State frame = simulation.frame();
         Vec3 mean = Vec3::Zero();
         for (const Vec3& v : frame.velocity) mean += v / static_cast<double>(frame.size());
         for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -81,7 +81,7 @@ std::optional<BedResult> run_bed(const BedSetting& setting, std::uint64_t seed, 
     result.contacts /= static_cast<double>(looks);
     result.cost = taken.count() / static_cast<double>(simulation.grains()) / (duration * 1e6);
 
-    const Frame frame = simulation.frame();
+    const State frame = simulation.frame();
     std::vector<std::uint8_t> lower;
     for (const std::int32_t s : frame.species) lower.push_back(s == 0);
     result.mixing = lacey_index(take_samples(frame.position, lower));

@@ -95,11 +95,11 @@ void CoarseGraining::add_grain(const FieldGrain& grain, double* motion) {
 void CoarseGraining::add(const FieldState& state, int phase) {
     double* const motion = motion_.at(phase).data();
     for (const FieldGrain& grain : state.grains) add_grain(grain, motion);
-    for (const FieldContact& contact : state.contacts) add_contact(contact);
+    for (const FieldBranch& contact : state.contacts) add_contact(contact);
     ++moments_;
 }
 
-void CoarseGraining::add_contact(const FieldContact& contact) {
+void CoarseGraining::add_contact(const FieldBranch& contact) {
     const auto at = [&](std::int64_t cell) {
         return contact_.data() + static_cast<std::size_t>(cell) * contact_width;
     };

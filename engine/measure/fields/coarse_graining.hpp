@@ -50,7 +50,7 @@ struct FieldGrain {
 };
 
 // A contact of a grain with another grain or a wall.
-struct FieldContact {
+struct FieldBranch {
     Vec3 begin;   // m, the grain's centre
     Vec3 branch;  // m, from there to the other grain's centre, or to the point of the wall that it touches
     Vec3 force;   // N, on the other body
@@ -60,7 +60,7 @@ struct FieldContact {
 // The grains and contacts of one moment.
 struct FieldState {
     std::vector<FieldGrain> grains;
-    std::vector<FieldContact> contacts;
+    std::vector<FieldBranch> contacts;
 };
 
 // One value per cell, in the grid's order.
@@ -100,7 +100,7 @@ class CoarseGraining {
 
   private:
     void add_grain(const FieldGrain& grain, double* motion);
-    void add_contact(const FieldContact& contact);
+    void add_contact(const FieldBranch& contact);
     bool is_inside(const Vec3& place) const;
 
     FieldGrid grid_;

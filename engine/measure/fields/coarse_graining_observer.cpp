@@ -20,11 +20,11 @@ std::string plain(const std::string& name) {
     return result;
 }
 
-std::vector<FieldAxis> axes_of(const FieldGrid& grid) {
+std::vector<MeasuredAxis> axes_of(const FieldGrid& grid) {
     const char* const about[] = {"along the depth, from the middle", "across, from the middle",
                                  "height above the floor at rest"};
     const char* const names[] = {"x", "y", "z"};
-    std::vector<FieldAxis> axes;
+    std::vector<MeasuredAxis> axes;
     for (const std::size_t k : {2, 1, 0})
         if (grid.axes[k].resolved) axes.push_back({names[k], "m", about[k], grid.axes[k].middles()});
     return axes;
@@ -36,7 +36,7 @@ FieldSet coarse_field_set(const Scene& scene, const CoarseGraining& by) {
     FieldSet set;
     set.axes = axes_of(by.grid());
     std::vector<std::string> axes;
-    for (const FieldAxis& axis : set.axes) axes.push_back(axis.name);
+    for (const MeasuredAxis& axis : set.axes) axes.push_back(axis.name);
     const auto add = [&](const std::string& name, const std::string& label, const char* unit,
                          const std::string& about) {
         set.fields.push_back({name, label, unit, about, axes});

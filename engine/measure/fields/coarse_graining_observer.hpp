@@ -19,8 +19,8 @@ namespace grainreel {
 //
 // seen_from() is the pose relative to which places and velocities are given. It is the container's if the
 // drive moves the container, and that of the lab if the drive moves only the floor.
-inline Pose seen_from(const ObservedState& moment) {
-    return moment.scene.drive.moves == Drive::Moves::container ? moment.pose : Pose();
+inline DrivePose seen_from(const ObservedState& moment) {
+    return moment.scene.drive.moves == Drive::Moves::container ? moment.pose : DrivePose();
 }
 
 inline Vec3 field_place(const ObservedState& moment, std::size_t grain) {
@@ -41,7 +41,7 @@ inline FieldGrain field_grain(const ObservedState& moment, std::size_t grain) {
 }
 
 // At a wall the branch ends on the wall's face.
-inline FieldContact field_contact(const ObservedState& moment, const ContactView& contact) {
+inline FieldBranch field_contact(const ObservedState& moment, const ContactView& contact) {
     const auto first = static_cast<std::size_t>(contact.first);
     const bool pair = contact.second >= 0;
     const double radius = moment.grains.place[first].radius;

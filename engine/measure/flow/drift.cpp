@@ -73,7 +73,7 @@ struct Mean {
 Drift::Drift(const Scene& scene)
     : walls_(scene), half_width_(scene.container.half_width), cells_(cells_of(scene)) {}
 
-void Drift::note(std::int64_t period, const Grains& grains, const Pose& pose) {
+void Drift::note(std::int64_t period, const Grains& grains, const DrivePose& pose) {
     if (cells_.weight.empty()) return;
     if (period != next_) windows_.clear();
     if (period == next_) {
@@ -87,7 +87,7 @@ void Drift::note(std::int64_t period, const Grains& grains, const Pose& pose) {
     next_ = period + kPeriods;
 }
 
-void Drift::remember(const Grains& grains, const Pose& pose) {
+void Drift::remember(const Grains& grains, const DrivePose& pose) {
     before_.assign(before_.size(), {kNoValue, kNoValue});
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const auto id = static_cast<std::size_t>(grains.id[i]);
@@ -97,7 +97,7 @@ void Drift::remember(const Grains& grains, const Pose& pose) {
     }
 }
 
-Drift::Window Drift::compare(const Grains& grains, const Pose& pose) const {
+Drift::Window Drift::compare(const Grains& grains, const DrivePose& pose) const {
     Window window;
     window.grid = cells_;
     Mean all;
@@ -112,7 +112,7 @@ Drift::Window Drift::compare(const Grains& grains, const Pose& pose) const {
         add(window.grid, cell_at(cells_, y, z), right, up, 1);
         all.add(up);
         const Side side = walls_.side_of(
-            {{grains.place[i].position.x() - pose.offset.x(), y, z}, grains.place[i].radius}, Pose());
+            {{grains.place[i].position.x() - pose.offset.x(), y, z}, grains.place[i].radius}, DrivePose());
         if (side == Side::left) zone[at_left_wall].add(up);
         if (side == Side::right) zone[at_right_wall].add(up);
         if (std::abs(y) < half_width_ / 3) zone[in_middle].add(up);

@@ -88,7 +88,7 @@ class Drift {
 
     // Call this at the beginning of every window, always at the same phase. A call at any other time than the
     // end of the last window begins anew.
-    void note(std::int64_t period, const Grains& grains, const Pose& pose);
+    void note(std::int64_t period, const Grains& grains, const DrivePose& pose);
 
     // Mean upward way (m per period) of the grains of a zone, minus that of all grains. The middle zone is
     // the middle third of the width.
@@ -113,8 +113,8 @@ class Drift {
     };
     using Place2 = std::array<double, 2>;  // m: y and z
 
-    Window compare(const Grains& grains, const Pose& pose) const;
-    void remember(const Grains& grains, const Pose& pose);
+    Window compare(const Grains& grains, const DrivePose& pose) const;
+    void remember(const Grains& grains, const DrivePose& pose);
     template <class Value>
     Estimate estimate(const Value& value) const;
     VelocityGrid sum_of_windows() const;

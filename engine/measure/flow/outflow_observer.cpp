@@ -44,7 +44,7 @@ const MassCounts& FedMass::of(std::span<const std::int64_t> given, double quantu
     one.add(0, 0, Vec3::Zero(), 1, 1);
     for (std::size_t feed = 0; feed < given.size(); ++feed)
         for (std::int64_t& next = given_[feed]; next < given[feed]; ++next) {
-            const NewGrain grain = fed_grain(scene_, feed, next);
+            const ComingGrain grain = fed_grain(scene_, feed, next);
             one.set_radius(0, grain.radius, grain.density);
             sums_[grain.species] += mass_count(one.mass(0), quantum);
         }

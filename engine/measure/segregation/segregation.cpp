@@ -118,7 +118,7 @@ SideWalls::SideWalls(const Scene& scene) {
         })->diameter.mean;
 }
 
-Side SideWalls::side_of(const Place& grain, const Pose& pose) const {
+Side SideWalls::side_of(const Place& grain, const DrivePose& pose) const {
     const bool beside = std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
         return distance_to(face, face.displacement(pose), grain.position).distance < grain.radius + gap_;
     });

@@ -79,7 +79,7 @@ class SideWalls {
     explicit SideWalls(const Scene& scene);
 
     bool any() const { return !faces_.empty(); }
-    Side side_of(const Place& grain, const Pose& pose) const;
+    Side side_of(const Place& grain, const DrivePose& pose) const;
 
   private:
     std::vector<Face> faces_;

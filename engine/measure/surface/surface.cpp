@@ -37,7 +37,7 @@ int columns_in(double length, double diameter) {
 
 class Columns {
   public:
-    explicit Columns(const SurfaceFrame& frame)
+    explicit Columns(const SurfaceAxes& frame)
         : frame_(frame),
           across_(columns_in(frame.right - frame.left, frame.diameter)),
           deep_(columns_in(frame.front - frame.back, frame.diameter)),
@@ -97,7 +97,7 @@ class Columns {
         return top;
     }
 
-    const SurfaceFrame frame_;
+    const SurfaceAxes frame_;
     const int across_, deep_;
     const double width_, depth_;  // m, of a column
     std::vector<std::vector<Chord>> chords_;
@@ -126,11 +126,11 @@ double BedOutline::mean() const {
     return mean_height_of(height);
 }
 
-std::size_t bins_across(const SurfaceFrame& frame) {
+std::size_t bins_across(const SurfaceAxes& frame) {
     return static_cast<std::size_t>(columns_in(frame.right - frame.left, frame.diameter));
 }
 
-BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame) {
+BedOutline surface_of(std::span<const Place> grains, const SurfaceAxes& frame) {
     if (grains.empty()) return {};
     Columns columns(frame);
     for (const Place& grain : grains) columns.add(grain);
@@ -145,8 +145,8 @@ constexpr double kSettled = 0.6;  // solid fraction of a bed at rest
 
 }  // namespace
 
-SurfaceFrame surface_frame(const Scene& scene) {
-    SurfaceFrame frame;
+SurfaceAxes surface_frame(const Scene& scene) {
+    SurfaceAxes frame;
     const Container& c = scene.container;
     if (c.shape == Container::Shape::none || turns_over(scene)) return frame;
     frame.diameter = mean_diameter(scene);

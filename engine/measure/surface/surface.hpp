@@ -23,13 +23,13 @@ struct BedOutline {
 };
 
 // The frame of the bed: y from left to right and x from back to front (m), and the size of its grains.
-struct SurfaceFrame {
+struct SurfaceAxes {
     double left = 0, right = 0, back = 0, front = 0;
     double period = 0;    // m, of x; 0 for none
     double diameter = 0;  // m, of grains; bins are about two diameters wide
 };
 
-std::size_t bins_across(const SurfaceFrame& frame);
+std::size_t bins_across(const SurfaceAxes& frame);
 
 // The bed is divided into columns two diameters wide and deep. In each column grains are stacked from the
 // lowest one up. The bed ends where the next grain leaves a gap of more than a diameter and a half, so grains
@@ -37,13 +37,13 @@ std::size_t bins_across(const SurfaceFrame& frame);
 // its mean over the depth. A grain counts in the column that holds its centre, and with its longest chord in
 // every other column that it reaches into. Columns whose middle no grain reaches are beside the bed and do
 // not count. A bin without any column takes the mean of the nearest bins. The result is empty without grains.
-BedOutline surface_of(std::span<const Place> grains, const SurfaceFrame& frame);
+BedOutline surface_of(std::span<const Place> grains, const SurfaceAxes& frame);
 
 //
 // The frame of a scene's surface: that of the container at rest. Its width is the free width at the height to
 // which the grains fill the container. Bins are sized by the mean diameter of all grains. It has no width in
 // empty space, nor in a drum (surface_observers.hpp).
-SurfaceFrame surface_frame(const Scene& scene);
+SurfaceAxes surface_frame(const Scene& scene);
 
 // How far a surface is heaped up.
 struct Mound {

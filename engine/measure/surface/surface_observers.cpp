@@ -43,7 +43,7 @@ double angle_of_repose(std::span<const Place> grains, const DrumAxes& axes, doub
     if (grains.size() < kFewest) return kNoValue;
     std::vector<Place> seen;
     std::vector<double> sideways;
-    SurfaceFrame frame;
+    SurfaceAxes frame;
     frame.diameter = diameter;
     for (const Place& grain : grains) {
         const Vec3& p = grain.position;

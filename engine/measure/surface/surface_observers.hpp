@@ -78,7 +78,7 @@ class BedSurface final : public Observer {
             {{{"surface_tilt", "tilt of the surface"}}, "1", "tangent of the rise from left to right"}};
     }
     static std::string why_empty(const Scene& scene, const std::string& column) {
-        const SurfaceFrame frame = surface_frame(scene);
+        const SurfaceAxes frame = surface_frame(scene);
         if (!(frame.right > frame.left)) return "the scene has no container with a surface of grains in it";
         const bool of_drive = column == "surface_half" || column == "surface_quarter";
         return of_drive && !scene.drive.present ? "it compares periods of the drive, and nothing is driven"
@@ -144,7 +144,7 @@ class BedSurface final : public Observer {
         return frame_.right > frame_.left && m.grains.size() > 0;
     }
     BedOutline surface_at(const ObservedState& m) const {
-        SurfaceFrame frame = frame_;
+        SurfaceAxes frame = frame_;
         frame.left += m.pose.offset.y(), frame.right += m.pose.offset.y();
         frame.back += m.pose.offset.x(), frame.front += m.pose.offset.x();
         return surface_of(m.grains.place, frame);
@@ -165,7 +165,7 @@ class BedSurface final : public Observer {
     }
 
     const Rows rows_;
-    const SurfaceFrame frame_;
+    const SurfaceAxes frame_;
     std::optional<Spectrum> spectrum_;
     std::deque<Earlier> earlier_;  // by rising step
 };

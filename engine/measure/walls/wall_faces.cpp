@@ -11,7 +11,7 @@
 #include "engine/scene/output.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
 
 namespace grainreel {
 
@@ -68,7 +68,7 @@ WallScale wall_scale(const Scene& scene, const Plan& plan) {
 PressureProfile::PressureProfile(const Scene& scene) {
     const int slices = slices_of(scene);
     const double slice = slices > 0 ? scene.container.height / slices : 0;
-    FieldAxis height{"height", "m", "above the floor at rest, in the frame of the container", {}};
+    MeasuredAxis height{"height", "m", "above the floor at rest, in the frame of the container", {}};
     for (int s = 0; s < slices; ++s) height.at.push_back((s + 0.5) * slice);
     fields_.axes.push_back(height);
     const std::vector<Face> faces = container_faces(scene.container, scene.drive);
@@ -200,7 +200,7 @@ void WallWork::load(const ObservedState& m, Bytes& in) {
     if (step_ < 0 || step_ > m.step || sums_.size() != walls_.size() || work_.size() != walls_.size() ||
         !are_sound(sums_) || !finite)
         return in.fail();
-    const Pose drive = WallMotion(m.scene.drive, m.clock).at(step_);
+    const DrivePose drive = DriveMotion(m.scene.drive, m.clock).at(step_);
     poses_ = poses_of(bodies_, drive);
     turned_ = angles_at(bodies_, drive.time);
 }

@@ -174,7 +174,7 @@ class Wear final : public Observer {
 
     void add_mesh(const Scene& scene, std::size_t k, const std::string& name) {
         const Surface& surface = *scene.meshes[k].surface;
-        FieldAxis axis{"triangle_of_" + name, "1", "triangle of the mesh, as trajectory.nc has them", {}};
+        MeasuredAxis axis{"triangle_of_" + name, "1", "triangle of the mesh, as trajectory.nc has them", {}};
         areas_.emplace_back();
         for (std::int32_t t = 0; t < surface.size(); ++t) {
             axis.at.push_back(t);

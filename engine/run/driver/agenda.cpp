@@ -5,20 +5,20 @@
 #include <limits>
 #include <memory>
 
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
-Frame places_of(const Frame& frame) {
-    Frame places = moment_of(frame);
+State places_of(const State& frame) {
+    State places = moment_of(frame);
     places.id = frame.id;
     places.position = frame.position;
     return places;
 }
 
-void KeptMoments::want(std::int64_t frame, const std::vector<WantedMoment>& moments) {
-    for (const WantedMoment& moment : moments) {
+void KeptStates::want(std::int64_t frame, const std::vector<WantedState>& moments) {
+    for (const WantedState& moment : moments) {
         Wanted& wanted = wanted_[moment.step];
         wanted.whole = wanted.whole || moment.whole;
         wanted.last = frame;
@@ -26,24 +26,24 @@ void KeptMoments::want(std::int64_t frame, const std::vector<WantedMoment>& mome
     }
 }
 
-std::set<std::int64_t> KeptMoments::steps() const {
+std::set<std::int64_t> KeptStates::steps() const {
     std::set<std::int64_t> steps;
     for (const auto& [step, wanted] : wanted_) steps.insert(steps.end(), step);
     return steps;
 }
 
-void KeptMoments::keep(const Frame& frame) {
+void KeptStates::keep(const State& frame) {
     const auto wanted = wanted_.find(frame.step);
     if (wanted == wanted_.end()) return;
-    kept_[frame.step] = std::make_shared<const Frame>(wanted->second.whole ? frame : places_of(frame));
+    kept_[frame.step] = std::make_shared<const State>(wanted->second.whole ? frame : places_of(frame));
 }
 
-FramePtr KeptMoments::at(std::int64_t step) const {
+StatePtr KeptStates::at(std::int64_t step) const {
     const auto found = kept_.find(step);
     return found == kept_.end() ? nullptr : found->second;
 }
 
-void KeptMoments::done_with(std::int64_t frame) {
+void KeptStates::done_with(std::int64_t frame) {
     const auto done = of_frame_.find(frame);
     if (done == of_frame_.end()) return;
     for (const std::int64_t step : done->second)

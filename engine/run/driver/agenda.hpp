@@ -1,6 +1,6 @@
 // At which steps a run stops, and why: for the frames that a film wants, for earlier moments that these need,
-// for rows of files, and for key moments. FrameWishes holds what a film or another program wants beyond the
-// run's files. KeptMoments keeps earlier moments, which a picture with an exposure time needs, for example.
+// for rows of files, and for key moments. FilmWishes holds what a film or another program wants beyond the
+// run's files. KeptStates keeps earlier moments, which a picture with an exposure time needs, for example.
 // Agenda merges all stops in order of time.
 #pragma once
 
@@ -12,33 +12,33 @@
 #include <utility>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/plan/times.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
 // A frame with only the moment (time, phase, poses of bodies), the ids and the positions of this one.
-Frame places_of(const Frame& frame);
+State places_of(const State& frame);
 
-struct WantedMoment {
+struct WantedState {
     std::int64_t step = 0;
     bool whole = false;  // whether the whole frame is kept, or only places_of() the frame
 };
 
 // Keeps earlier moments. A moment is kept until the last frame that needs it has been handed out.
-class KeptMoments {
+class KeptStates {
   public:
     // Says which moments the frame handed out at step `frame` needs. Frames must come by rising step.
-    void want(std::int64_t frame, const std::vector<WantedMoment>& moments);
+    void want(std::int64_t frame, const std::vector<WantedState>& moments);
     // The steps at which a moment has to be kept.
     std::set<std::int64_t> steps() const;
     // Copies the wanted parts of the frame, if its step is one of steps().
-    void keep(const Frame& frame);
+    void keep(const State& frame);
     // The moment at a step; null if it was not kept.
-    FramePtr at(std::int64_t step) const;
+    StatePtr at(std::int64_t step) const;
     // Call this when the frame of a step has been handed out or left out. Forgets moments that no later frame
     // needs.
     void done_with(std::int64_t frame);
@@ -50,12 +50,12 @@ class KeptMoments {
     };
     std::map<std::int64_t, Wanted> wanted_;                    // by step
     std::map<std::int64_t, std::set<std::int64_t>> of_frame_;  // steps that the frame of a step needs
-    std::map<std::int64_t, FramePtr> kept_;
+    std::map<std::int64_t, StatePtr> kept_;
 };
 
 // Wishes of a film, or of a program that looks at the grains now and then, that go beyond the files of the
 // scene.
-struct FrameWishes {
+struct FilmWishes {
     // Steps at which frames are handed out (RunDriver::next()), rising. Those before the run's first step do
     // not come.
     std::vector<std::int64_t> steps;
@@ -63,9 +63,9 @@ struct FrameWishes {
     // all frames are wanted.
     std::function<bool(std::int64_t step)> left_out;
     // Called at each step at which the run stops, before anything else is done there.
-    std::function<void(const Simulation&)> look;
+    std::function<void(const SimulatedBed&)> look;
     // Earlier moments that those frames will need.
-    KeptMoments kept;
+    KeptStates kept;
     // Whether frames that are handed out also go into film_moments.nc. A resumed run does so if it did so
     // before.
     bool to_file = false;

@@ -7,8 +7,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/state_writer.hpp"
+#include "engine/files/frames/stored_world.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/stored/stored_run.hpp"
 
@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const FrameFormat& format_called(const std::string& name) {
-    const std::vector<FrameFormat>& all = frame_formats();
+const WriteFormat& format_called(const std::string& name) {
+    const std::vector<WriteFormat>& all = frame_formats();
     const auto found =
-        std::find_if(all.begin(), all.end(), [&](const FrameFormat& f) { return name == f.name; });
+        std::find_if(all.begin(), all.end(), [&](const WriteFormat& f) { return name == f.name; });
     GRAINREEL_CHECK(found != all.end());
     return *found;
 }

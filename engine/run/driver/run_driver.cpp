@@ -6,7 +6,7 @@
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/files/former_run.hpp"
+#include "engine/files/former_files.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/grain_table.hpp"
@@ -50,7 +50,7 @@ RunDriver::RunDriver(const Scene& scene, const Plan& plan, ResumePoint point)
 
 void RunDriver::keep_former(const FolderLock& folder, bool hands_out, const std::string& program_version) {
     folder_ = &folder;
-    FormerRun former(folder.folder());
+    FormerFiles former(folder.folder());
     const std::optional<std::size_t> frames = hands_out ? std::optional(frames_before_) : std::nullopt;
     ready_ = ready_files(folder.folder(), scene_, plan_, simulation_, frames, program_version, former);
     former.begin();
@@ -61,13 +61,13 @@ void RunDriver::keep_former(const FolderLock& folder, bool hands_out, const std:
 // to finish its film; its files are then whole again too.
 void RunDriver::let_former_go(bool at_its_end) {
     if (!former_kept_ || !(at_its_end || simulation_.step() > former_end_)) return;
-    FormerRun::let_go(folder_->folder());
+    FormerFiles::let_go(folder_->folder());
     former_kept_ = false;
 }
 
 void RunDriver::put_back() {
     files_.reset();
-    FormerRun::put_back(folder_->folder());
+    FormerFiles::put_back(folder_->folder());
     former_kept_ = false;
 }
 
@@ -102,7 +102,7 @@ bool RunDriver::pack(const PackingWatcher& watcher) {
 bool RunDriver::take_kept_packing(const std::string& key) {
     const std::filesystem::path place = place_of_packing(key);
     if (place.empty() || !is_own_packing(place)) return false;
-    auto found = Simulation::with_packing(scene_, plan_, place, key, simulation_.threads(), packing_);
+    auto found = SimulatedBed::with_packing(scene_, plan_, place, key, simulation_.threads(), packing_);
     if (!found) return false;
     simulation_ = std::move(*found);
     note_packing_used(place);
@@ -117,7 +117,7 @@ void RunDriver::keep_packing_of(const std::string& key, const PackingResult& res
         place, [&](const std::filesystem::path& file) { simulation_.save_packing(file, key, result); });
 }
 
-void RunDriver::start(FrameWishes wishes) {
+void RunDriver::start(FilmWishes wishes) {
     wishes_ = std::move(wishes);
     kept_ = std::move(wishes_.kept);
     open_files();
@@ -157,7 +157,7 @@ void RunDriver::open_files() {
         files_->keep_film_moments(frames_before_);
 }
 
-std::shared_ptr<Frame> RunDriver::next(const GoOn& go_on) {
+std::shared_ptr<State> RunDriver::next(const GoOn& go_on) {
     if (handed_out_) kept_.done_with(*handed_out_);
     handed_out_.reset();
     while (std::optional<Stop> stop = agenda_->next()) {
@@ -167,7 +167,7 @@ std::shared_ptr<Frame> RunDriver::next(const GoOn& go_on) {
             stop->frame = false;
             kept_.done_with(stop->step);
         }
-        std::shared_ptr<Frame> frame = serve(*stop);
+        std::shared_ptr<State> frame = serve(*stop);
         if (!stop->frame) continue;
         handed_out_ = stop->step;
         return frame;
@@ -200,7 +200,7 @@ bool RunDriver::advance_to(std::int64_t target, const GoOn& go_on) {
 }
 
 // Does the work of a stop. The frame is null if none is wanted.
-std::shared_ptr<Frame> RunDriver::serve(const Stop& stop) {
+std::shared_ptr<State> RunDriver::serve(const Stop& stop) {
     if (stop.measures) {
         const auto timer = times_.during("measuring");
         add_measures();
@@ -210,7 +210,7 @@ std::shared_ptr<Frame> RunDriver::serve(const Stop& stop) {
         files_->add_fields(simulation_);
     }
     if (!stop.trajectory && !stop.key && !stop.moment && !stop.frame) return nullptr;
-    auto frame = std::make_shared<Frame>(simulation_.frame());
+    auto frame = std::make_shared<State>(simulation_.frame());
     const bool filed = files_->keeps_film_moments() && stop.frame;
     if (stop.trajectory || stop.key || filed) {
         const auto timer = times_.during("writing");

@@ -21,7 +21,7 @@
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/run/resume/resume_point.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -62,13 +62,13 @@ class RunDriver {
     std::string found_packing_text() const;
 
     // Opens the files. Call it after packing.
-    void start(FrameWishes wishes);
+    void start(FilmWishes wishes);
     // Goes to the next step at which a frame is wanted, writes the files of the scene on the way, and hands
     // the frame out. Returns null after the last frame (the run is then at its end), and if it was told to
     // stop. Throws RunError if the run is not healthy, a file cannot be written, or the folder is gone.
-    std::shared_ptr<Frame> next(const GoOn& go_on);
+    std::shared_ptr<State> next(const GoOn& go_on);
     // An earlier moment that the frame of the last next() needs; null if it was not kept.
-    FramePtr kept(std::int64_t step) const { return kept_.at(step); }
+    StatePtr kept(std::int64_t step) const { return kept_.at(step); }
     // Findings when the run started, a line each.
     const std::vector<std::string>& news() const { return news_; }
 
@@ -78,7 +78,7 @@ class RunDriver {
 
     const Scene& scene() const { return scene_; }
     const Plan& plan() const { return plan_; }
-    const Simulation& simulation() const { return simulation_; }
+    const SimulatedBed& simulation() const { return simulation_; }
     const StageTimes& times() const { return times_; }
     const std::optional<RunFiles>& files() const { return files_; }            // from start() on
     const std::filesystem::path& folder() const { return folder_->folder(); }  // from use_folder() on
@@ -112,7 +112,7 @@ class RunDriver {
     void let_former_go(bool at_its_end);
     void open_files();
     bool advance_to(std::int64_t target, const GoOn& go_on);
-    std::shared_ptr<Frame> serve(const Stop& stop);
+    std::shared_ptr<State> serve(const Stop& stop);
     void add_measures();
     bool ring_due() const;
     void save_checkpoint();
@@ -120,7 +120,7 @@ class RunDriver {
 
     Scene scene_;
     Plan plan_;
-    Simulation simulation_;
+    SimulatedBed simulation_;
     const FolderLock* folder_ = nullptr;
     std::string program_version_;  // as written in files
     PackingResult packing_;
@@ -135,8 +135,8 @@ class RunDriver {
     bool former_kept_ = false, changed_ = false;
     std::vector<AcceptedKey> accepted_;
     ReadyFiles ready_;
-    FrameWishes wishes_;
-    KeptMoments kept_;
+    FilmWishes wishes_;
+    KeptStates kept_;
     std::optional<std::int64_t> handed_out_;  // step of the last frame
     std::optional<RunFiles> files_;
     std::optional<Agenda> agenda_;

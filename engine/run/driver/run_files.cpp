@@ -21,7 +21,7 @@ double film_moments_bytes(const Scene& scene, const Plan& plan, std::int64_t fra
     return scene.output.film_moments.value_or(bytes <= most_bytes) ? bytes : 0;
 }
 
-void count_contacts(Frame& frame, const RunFiles::Contacts& contacts) {
+void count_contacts(State& frame, const RunFiles::Contacts& contacts) {
     frame.contact_number.assign(frame.size(), 0);
     const auto count = [&](std::int32_t id) {
         if (const auto row = frame.row_of(id)) ++frame.contact_number[*row];  // none for walls
@@ -33,7 +33,7 @@ void count_contacts(Frame& frame, const RunFiles::Contacts& contacts) {
 }
 
 RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
-                   const Simulation& simulation, const std::string& program_version, bool keep_rows)
+                   const SimulatedBed& simulation, const std::string& program_version, bool keep_rows)
     : folder_(folder),
       info_(trajectory_info(scene, plan, program_version)),
       program_version_(program_version),
@@ -54,7 +54,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
 }
 
 RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
-                   const Simulation& simulation, const std::string& program_version, bool keep_rows)
+                   const SimulatedBed& simulation, const std::string& program_version, bool keep_rows)
     : folder_(folder),
       info_(trajectory_info(scene, plan, program_version)),
       program_version_(program_version),
@@ -82,7 +82,7 @@ RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& sce
 }
 
 // Reads the former rows of measures.csv, for plots and for the comparison of end and beginning.
-void RunFiles::take_over_rows(const Simulation& simulation) {
+void RunFiles::take_over_rows(const SimulatedBed& simulation) {
     const std::shared_ptr<const MeasureTable> rows = read_measures(folder_ / "measures.csv");
     if (!rows) return;
     const auto names = std::make_shared<const std::vector<std::string>>(simulation.measured());
@@ -119,24 +119,24 @@ void RunFiles::keep_key_moments(std::int64_t step) {
     key_contacts_.emplace(folder_ / kKeyContacts, frames);
 }
 
-void RunFiles::add_key_moment(const Frame& frame, const Contacts& contacts) {
+void RunFiles::add_key_moment(const State& frame, const Contacts& contacts) {
     const std::int64_t index = key_moments_->frames();
     key_moments_->write(frame);
     key_contacts_->write(index, contacts);
 }
 
-void RunFiles::add_frame(const Frame& frame, const Contacts& contacts) {
+void RunFiles::add_frame(const State& frame, const Contacts& contacts) {
     const std::int64_t index = trajectory_->frames();
     trajectory_->write(frame);
     if (contacts_) contacts_->write(index, contacts);
 }
 
-void RunFiles::add_fields(const Simulation& simulation) {
+void RunFiles::add_fields(const SimulatedBed& simulation) {
     const std::int64_t end = simulation.step();
     fields_->write(clock_.time(field_times_.begin_of_record(end)), clock_.time(end), simulation.fields());
 }
 
-void RunFiles::add_departures(Simulation& simulation) {
+void RunFiles::add_departures(SimulatedBed& simulation) {
     if (!outflow_) return;
     const std::vector<Departure> gone = simulation.take_departures();
     for (const Departure& one : gone) departed_.add(clock_.time(one.step), one.species, one.radius);

@@ -18,7 +18,7 @@
 #include "engine/measure/flow/flowed_out.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/contact.hpp"
 
@@ -57,35 +57,35 @@ class RunFiles {
     // Makes files with room for all grains that the plan expects. With `keep_rows`, the rows of measures.csv
     // also stay in memory (measures()). Throws RunError if a file cannot be made.
     RunFiles(const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
-             const Simulation& simulation, const std::string& program_version, bool keep_rows);
+             const SimulatedBed& simulation, const std::string& program_version, bool keep_rows);
     // Opens the files of a run that goes on in its folder from the simulation's step. Entries of this step
     // and later ones are cut off first. ready_files() must have checked the files. Throws UserError if they
     // lack earlier entries.
     struct GoesOn {};
     RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
-             const Simulation& simulation, const std::string& program_version, bool keep_rows);
+             const SimulatedBed& simulation, const std::string& program_version, bool keep_rows);
 
     using Contacts = std::vector<SavedContact>;
     // Adds a frame with contact numbers, and the contacts of the same moment if the scene asks for them.
-    void add_frame(const Frame& frame, const Contacts& contacts);
+    void add_frame(const State& frame, const Contacts& contacts);
     // Begins a file of the frames that are handed out.
     void keep_film_moments();
     // Goes on with this file behind its first `frames` frames.
     void keep_film_moments(std::size_t frames);
     bool keeps_film_moments() const { return film_moments_.has_value(); }
-    void add_film_moment(const Frame& frame) { film_moments_->write(frame); }
+    void add_film_moment(const State& frame) { film_moments_->write(frame); }
     // Begins the files of key moments and their contacts.
     void keep_key_moments();
     // Goes on with these files behind the key moments before a step.
     void keep_key_moments(std::int64_t step);
     bool keeps_key_moments() const { return key_moments_.has_value(); }
-    void add_key_moment(const Frame& frame, const Contacts& contacts);
+    void add_key_moment(const State& frame, const Contacts& contacts);
     void add_measures(const Measures& measures);
     // Fields of the observers, at the end of a record.
     bool has_fields() const { return fields_.has_value(); }
-    void add_fields(const Simulation& simulation);
+    void add_fields(const SimulatedBed& simulation);
     // Adds the grains that have left since the last call.
-    void add_departures(Simulation& simulation);
+    void add_departures(SimulatedBed& simulation);
 
     std::int64_t trajectory_frames() const { return trajectory_ ? trajectory_->frames() : 0; }
     std::int64_t field_records() const { return fields_ ? fields_->records() : 0; }
@@ -102,7 +102,7 @@ class RunFiles {
     const LateMeans& late_measures() const { return late_; }
 
   private:
-    void take_over_rows(const Simulation& simulation);
+    void take_over_rows(const SimulatedBed& simulation);
 
     std::filesystem::path folder_;
     TrajectoryInfo info_;  // for the trajectory, the frames handed out, and the key moments
@@ -121,6 +121,6 @@ class RunFiles {
 };
 
 // Sets the contact numbers of a frame from all contacts that carry force at its moment.
-void count_contacts(Frame& frame, const RunFiles::Contacts& contacts);
+void count_contacts(State& frame, const RunFiles::Contacts& contacts);
 
 }  // namespace grainreel

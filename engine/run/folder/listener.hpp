@@ -50,9 +50,9 @@ struct Progress {
 // "0.4 s", "45 s", "1 min 05 s", "2 h 03 min".
 std::string duration_text(double seconds);
 
-class RunListener {
+class Listener {
   public:
-    virtual ~RunListener() = default;
+    virtual ~Listener() = default;
 
     // Messages, a line each, called on the thread that runs.
     virtual void detail(const std::string& text) = 0;  // for detailed logs
@@ -72,7 +72,7 @@ class RunListener {
 };
 
 // A listener that ignores all messages and never asks the run to stop.
-class SilentListener : public RunListener {
+class SilentListener : public Listener {
   public:
     void detail(const std::string&) override {}
     void info(const std::string&) override {}
@@ -101,9 +101,9 @@ class RunLog {
 };
 
 // Passes everything on, and also writes the messages to a log once there is one.
-class LoggingListener final : public RunListener {
+class LoggingListener final : public Listener {
   public:
-    explicit LoggingListener(RunListener& to) : to_(to) {}
+    explicit LoggingListener(Listener& to) : to_(to) {}
     void keep_log(RunLog* log) { log_ = log; }  // null ends the log
 
     void detail(const std::string& text) override {
@@ -128,7 +128,7 @@ class LoggingListener final : public RunListener {
     bool in_a_hurry() const override { return to_.in_a_hurry(); }
 
   private:
-    RunListener& to_;
+    Listener& to_;
     RunLog* log_ = nullptr;
 };
 
@@ -137,8 +137,8 @@ class LoggingListener final : public RunListener {
 ReplayWatcher replay_progress(std::function<void(const Progress&)> tell);
 
 // Objects that all parts working on one run's folder share.
-struct RunDesk {
-    explicit RunDesk(RunListener& to) : listener(to) {}
+struct JobDesk {
+    explicit JobDesk(Listener& to) : listener(to) {}
 
     LoggingListener listener;
     std::optional<RunFolder> folder;  // once it is made

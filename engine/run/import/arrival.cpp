@@ -10,9 +10,9 @@ namespace {
 
 // The contacts with the points where they act. Contacts of grains that do not touch in the frame are left
 // out. They are contacts across a periodic side, or of another moment.
-std::vector<SavedContact> records_of(const std::vector<Touch>& touches, const Frame& frame) {
+std::vector<SavedContact> records_of(const std::vector<Link>& touches, const State& frame) {
     std::vector<SavedContact> records;
-    for (const Touch& touch : touches) {
+    for (const Link& touch : touches) {
         const std::optional<std::size_t> first = frame.row_of(touch.first);
         if (!first) continue;
         SavedContact one{touch.first, touch.second, touch.force, Vec3(0, 0, 0), frame.position[*first]};
@@ -52,10 +52,10 @@ Arrival::Arrival(const std::filesystem::path& folder, const Scene& scene, Arriva
                           facts_.header.facts);
 }
 
-void Arrival::complete(Frame& frame) const {
+void Arrival::complete(State& frame) const {
     frame.cycles = facts_.clock.cycles(frame.step);
     frame.phase = facts_.clock.phase(frame.step);
-    const Pose drive = motion_.at(frame.step);
+    const DrivePose drive = motion_.at(frame.step);
     // The motions of the files' walls are part of the scene and pass through each moment.
     frame.bodies = poses_of(bodies_, drive);
     if (!facts_.in_container) return;
@@ -65,7 +65,7 @@ void Arrival::complete(Frame& frame) const {
     }
 }
 
-void Arrival::take(const Frame& frame, const std::vector<Touch>& touches, const std::vector<double>& more) {
+void Arrival::take(const State& frame, const std::vector<Link>& touches, const std::vector<double>& more) {
     const std::int64_t number = trajectory_.frames();
     trajectory_.write(frame);
     if (contacts_) contacts_->write(number, records_of(touches, frame));

@@ -10,21 +10,21 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/files/contacts_file.hpp"
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
-#include "engine/frame.hpp"
 #include "engine/run/import/import_measures.hpp"
 #include "engine/run/import/import_ranges.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/body.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
 struct ArrivalFacts {
     TrajectoryInfo header;
-    FrameSupply supply{};  // what the frames have
+    StateSupply supply{};  // what the frames have
     Clock clock{};
     bool in_container = false;  // places and velocities of the frames are against the moving container
     bool ranges = false;        // whether close() writes ranges.csv
@@ -39,10 +39,10 @@ class Arrival {
 
     // Completes a frame that has step, time and grains as a run of the scene would write it: with the drive's
     // clock, the poses of the bodies, and the grains in the room.
-    void complete(Frame& frame) const;
+    void complete(State& frame) const;
     // Writes a completed frame and its contacts. more: the values of more_columns. Throws RunError where it
     // cannot be written.
-    void take(const Frame& frame, const std::vector<Touch>& touches, const std::vector<double>& more = {});
+    void take(const State& frame, const std::vector<Link>& touches, const std::vector<double>& more = {});
     // Writes what is known only after the last frame.
     void close();
 
@@ -53,7 +53,7 @@ class Arrival {
     const std::filesystem::path folder_;
     const Scene& scene_;
     const ArrivalFacts facts_;
-    const WallMotion motion_;
+    const DriveMotion motion_;
     const std::vector<Body> bodies_;
     TrajectoryWriter trajectory_;
     std::optional<ContactsWriter> contacts_;

@@ -165,8 +165,8 @@ void make_room(const fs::path& imports, const fs::path& keep) {
     }
 }
 
-ImportedRun found(const fs::path& folder) {
-    ImportedRun run;
+Imported found(const fs::path& folder) {
+    Imported run;
     run.folder = folder;
     std::ifstream news(folder / kImportNews);
     for (std::string line; std::getline(news, line);)
@@ -178,7 +178,7 @@ ImportedRun found(const fs::path& folder) {
 
 }  // namespace
 
-ImportedRun cached_import(ImportRequest request) {
+Imported cached_import(ImportRequest request) {
     const fs::path imports = import_folder();
     std::string name = request.from.filename().string();
     if (name.empty() || name == "." || name == "..")
@@ -202,7 +202,7 @@ ImportedRun cached_import(ImportRequest request) {
         throw RunError(fmt::format("{}: cannot be made: {}", part.string(), fault));
     request.folder = part / name;
     try {
-        const ImportedRun made = import_run(request);
+        const Imported made = import_run(request);
         std::ofstream news(request.folder / kImportNews);
         for (const std::string& line : made.news) news << line << "\n";
         news.close();
@@ -217,7 +217,7 @@ ImportedRun cached_import(ImportRequest request) {
             throw RunError(fmt::format("{}: cannot be made: {}", place.string(), error.message()));
         fs::remove_all(part, error);
         make_room(imports, place);
-        ImportedRun run = made;
+        Imported run = made;
         run.folder = place / name;
         return run;
     } catch (...) {

@@ -16,7 +16,7 @@
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/state/container_faces.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
 
 namespace grainreel {
 
@@ -24,7 +24,7 @@ namespace {
 
 // The observers that only need a state made from a frame. Energies are left out, because stiffness and mass
 // of another program's contacts are not known.
-std::vector<ObserverEntry> entries(const FrameSupply& supply) {
+std::vector<ObserverEntry> entries(const StateSupply& supply) {
     std::vector<ObserverEntry> all{
         entry_of<observers::Times>(),         entry_of<observers::CentreOfMass>(),
         entry_of<observers::SpeciesPlaces>(), entry_of<observers::HeightDifference>(),
@@ -38,14 +38,14 @@ std::vector<ObserverEntry> entries(const FrameSupply& supply) {
     return all;
 }
 
-std::int32_t row_of(const Frame& frame, std::int32_t id) {
+std::int32_t row_of(const State& frame, std::int32_t id) {
     const std::optional<std::size_t> row = frame.row_of(id);
     return row ? static_cast<std::int32_t>(*row) : -1;
 }
 
-void show(const Frame& frame, const std::vector<Touch>& touches,
+void show(const State& frame, const std::vector<Link>& touches,
           const std::function<void(const ContactView&)>& see) {
-    for (const Touch& touch : touches) {
+    for (const Link& touch : touches) {
         ContactView view{};
         view.first = row_of(frame, touch.first);
         view.second = touch.second < 0 ? touch.second : row_of(frame, touch.second);
@@ -79,7 +79,7 @@ Scene as_layers(Scene scene) {
 
 }  // namespace
 
-Grains grains_of(const Frame& frame, const Scene& scene) {
+Grains grains_of(const State& frame, const Scene& scene) {
     Grains grains;
     grains.reserve(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -93,7 +93,7 @@ Grains grains_of(const Frame& frame, const Scene& scene) {
 }
 
 struct ImportMeasures::Impl {
-    Impl(const Scene& scene_in, const Clock& clock_in, const FrameSupply& supply)
+    Impl(const Scene& scene_in, const Clock& clock_in, const StateSupply& supply)
         : scene(scene_in),
           clock(clock_in),
           plan(make_plan(as_layers(scene))),
@@ -108,7 +108,7 @@ struct ImportMeasures::Impl {
     const Traffic traffic{};
 };
 
-ImportMeasures::ImportMeasures(const Scene& scene, const Clock& clock, const FrameSupply& supply)
+ImportMeasures::ImportMeasures(const Scene& scene, const Clock& clock, const StateSupply& supply)
     : impl_(std::make_unique<Impl>(scene, clock, supply)) {}
 
 ImportMeasures::~ImportMeasures() = default;
@@ -117,7 +117,7 @@ const std::vector<std::string>& ImportMeasures::names() const {
     return impl_->observers.names();
 }
 
-Measures ImportMeasures::row(const Frame& frame, const std::vector<Touch>& touches) {
+Measures ImportMeasures::row(const State& frame, const std::vector<Link>& touches) {
     const Impl& m = *impl_;
     const Grains grains = grains_of(frame, m.scene);
     const double depth = m.scene.container.periodic_depth ? m.scene.container.depth : 0;
@@ -127,7 +127,7 @@ Measures ImportMeasures::row(const Frame& frame, const std::vector<Touch>& touch
                                .step = frame.step,
                                .gravity = m.scene.gravity,
                                .period = depth,
-                               .pose = WallMotion(m.scene.drive, m.clock).at(frame.step),
+                               .pose = DriveMotion(m.scene.drive, m.clock).at(frame.step),
                                .start_energy = 0,
                                .traffic = m.traffic,
                                .faces = m.faces};
@@ -192,7 +192,7 @@ struct ImportWear::Impl {
     }
 
     void add_fields(const std::string& name, const std::string& label, const Surface& surface) {
-        FieldAxis axis{"triangle_of_" + name, "1", "triangle of the mesh, as trajectory.nc has them", {}};
+        MeasuredAxis axis{"triangle_of_" + name, "1", "triangle of the mesh, as trajectory.nc has them", {}};
         for (std::int32_t t = 0; t < surface.size(); ++t) axis.at.push_back(t);
         set.axes.push_back(axis);
         set.fields.push_back({pressure_field(name),

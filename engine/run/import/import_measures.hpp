@@ -9,27 +9,27 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "engine/files/frames/frame_archive.hpp"
-#include "engine/frame.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/contact.hpp"
 #include "engine/state/grains.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
 // The grains of a frame. Their density is that of their species.
-Grains grains_of(const Frame& frame, const Scene& scene);
+Grains grains_of(const State& frame, const Scene& scene);
 
 // Runs those observers that need only places, velocities or contacts.
 class ImportMeasures {
   public:
-    ImportMeasures(const Scene& scene, const Clock& clock, const FrameSupply& supply);
+    ImportMeasures(const Scene& scene, const Clock& clock, const StateSupply& supply);
     ~ImportMeasures();
 
     const std::vector<std::string>& names() const;
     // The row of measures.csv for a frame.
-    Measures row(const Frame& frame, const std::vector<Touch>& touches);
+    Measures row(const State& frame, const std::vector<Link>& touches);
 
   private:
     struct Impl;

@@ -24,7 +24,7 @@ constexpr double classes_a_power = 100;  // classes for each power of ten
 constexpr int no_size = -1'000'000;      // the class of the value 0
 
 // The kinetic energy in J of translation and rotation, with 2/5 m r2 for a solid sphere.
-double energy_of(const Frame& frame, std::size_t i, const Scene& scene) {
+double energy_of(const State& frame, std::size_t i, const Scene& scene) {
     const double r = frame.radius[i];
     const double mass = scene.species[static_cast<std::size_t>(frame.species[i])].density * 4.0 / 3.0 *
                         std::numbers::pi * r * r * r;
@@ -62,7 +62,7 @@ double TopOfMost::value() const {
     return 0;
 }
 
-void ImportRanges::add(const Frame& frame, const std::vector<Touch>& touches) {
+void ImportRanges::add(const State& frame, const std::vector<Link>& touches) {
     if (!heights_ && frame.size() > 0) add_heights(frame);
     if (supply_.contacts) add_forces(frame, touches);
     if (!supply_.velocities) return;
@@ -74,7 +74,7 @@ void ImportRanges::add(const Frame& frame, const std::vector<Touch>& touches) {
     }
 }
 
-void ImportRanges::add_heights(const Frame& frame) {
+void ImportRanges::add_heights(const State& frame) {
     heights_ = {frame.position[0].z(), frame.position[0].z()};
     for (const Vec3& place : frame.position) {
         (*heights_)[0] = std::min((*heights_)[0], place.z());
@@ -83,12 +83,12 @@ void ImportRanges::add_heights(const Frame& frame) {
     for (double& height : *heights_) height -= frame.floor().place.z();
 }
 
-void ImportRanges::add_forces(const Frame& frame, const std::vector<Touch>& touches) {
+void ImportRanges::add_forces(const State& frame, const std::vector<Link>& touches) {
     std::vector<double> forces(frame.size(), 0.0);
     const auto add = [&](std::int32_t id, double force) {
         if (const auto row = frame.row_of(id)) forces[*row] += force;
     };
-    for (const Touch& touch : touches) {
+    for (const Link& touch : touches) {
         add(touch.first, touch.force);
         if (touch.second >= 0) add(touch.second, touch.force);
     }

@@ -12,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/files/frames/frame_archive.hpp"
-#include "engine/frame.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/contact.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -36,19 +36,19 @@ class TopOfMost {
 // Collects the ranges frame by frame.
 class ImportRanges {
   public:
-    ImportRanges(const Scene& scene, const FrameSupply& supply) : scene_(scene), supply_(supply) {}
+    ImportRanges(const Scene& scene, const StateSupply& supply) : scene_(scene), supply_(supply) {}
     // Adds a frame. Heights are taken only from the first frame with grains.
-    void add(const Frame& frame, const std::vector<Touch>& touches);
+    void add(const State& frame, const std::vector<Link>& touches);
     // Writes ranges.csv into the run's folder: quantity, low and high in SI. A quantity that is unknown or
     // always 0 has no row. Throws RunError where the file cannot be written.
     void write(const std::filesystem::path& folder) const;
 
   private:
-    void add_heights(const Frame& frame);
-    void add_forces(const Frame& frame, const std::vector<Touch>& touches);
+    void add_heights(const State& frame);
+    void add_forces(const State& frame, const std::vector<Link>& touches);
 
     const Scene& scene_;
-    FrameSupply supply_;
+    StateSupply supply_;
     TopOfMost speed_, rise_, spin_, energy_, force_;
     std::optional<std::array<double, 2>> heights_;
 };

@@ -10,7 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/stored_world.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/import/arrival.hpp"
 #include "engine/run/import/import_measures.hpp"
@@ -60,7 +60,7 @@ class Import {
     }
 
     // Makes the files in the request's folder, which is empty.
-    ImportedRun run();
+    Imported run();
 
   private:
     // The files while they are written.
@@ -79,7 +79,7 @@ class Import {
     void begin(const ImportSurvey& guess, bool may_fail);
     void drop();
     ImportSurvey read_all(const ImportSurvey& guess);
-    void take(std::size_t index, Frame frame);
+    void take(std::size_t index, State frame);
     void finish(const ImportSurvey& survey);
 
     const ImportRequest& request_;
@@ -87,7 +87,7 @@ class Import {
     const bool depends_on_box_;   // whether the header of trajectory.nc depends on the box around the grains
     std::optional<Files> files_;  // none while what was read does not fit the guess
     std::int64_t last_step_ = 0;
-    ImportedRun run_;
+    Imported run_;
 };
 
 // Writes scene.toml and reads it. Errors in it come from the files or the options.
@@ -103,7 +103,7 @@ Scene written_and_read(const std::string& text, const ImportRequest& request) {
 
 ArrivalFacts arrival_facts(const Scene& scene, const ForeignArchive& archive, const ImportSurvey& survey,
                            const ImportRequest& request) {
-    World world = world_of(scene);
+    StoredWorld world = world_of(scene);
     world.title = archive.world().title;
     world.program_version = request.program_version;
     world.traffic = true;  // in a run of another program any grain may come and go
@@ -140,7 +140,7 @@ ImportSurvey Import::first_guess() {
 
 // may_fail: whether a scene that cannot be read only means that the guess is wrong.
 void Import::begin(const ImportSurvey& guess, bool may_fail) {
-    run_ = ImportedRun();
+    run_ = Imported();
     run_.folder = request_.folder;
     run_.news = archive_.news();
     try {
@@ -165,7 +165,7 @@ ImportSurvey Import::read_all(const ImportSurvey& guess) {
         if (request_.watcher && !request_.watcher(static_cast<double>(k) / static_cast<double>(frames)))
             throw RunError("stopped while frames were read");
         archive_.take_types(k);
-        Frame frame = archive_.grains(k);
+        State frame = archive_.grains(k);
         survey.add(frame, archive_.types());
         if (files_ && !survey.within(guess, depends_on_box_)) drop();
         if (files_) take(k, std::move(frame));
@@ -173,12 +173,12 @@ ImportSurvey Import::read_all(const ImportSurvey& guess) {
     return survey;
 }
 
-void Import::take(std::size_t index, Frame frame) {
+void Import::take(std::size_t index, State frame) {
     if (run_.frames > 0 && frame.step <= last_step_) return;  // a second frame of the same moment
     last_step_ = frame.step;
     if (!archive_.world().time_known && archive_.moments().size() == 1) frame.step = 0;
     files_->arrival.complete(frame);
-    files_->arrival.take(frame, archive_.touches(index).value_or(std::vector<Touch>()));
+    files_->arrival.take(frame, archive_.touches(index).value_or(std::vector<Link>()));
     if (files_->wear) files_->wear->write(index);
     run_.frames = files_->arrival.frames();
     run_.most_grains = std::max(run_.most_grains, static_cast<std::int64_t>(frame.size()));
@@ -196,7 +196,7 @@ void Import::finish(const ImportSurvey& survey) {
     files_->arrival.close();
 }
 
-ImportedRun Import::run() {
+Imported Import::run() {
     ImportSurvey guess = first_guess();
     begin(guess, true);
     ImportSurvey survey = read_all(guess);
@@ -215,10 +215,10 @@ ImportedRun Import::run() {
 
 }  // namespace
 
-ImportedRun import_run(const ImportRequest& request) {
+Imported import_run(const ImportRequest& request) {
     Import import(request);
     NewFolder folder(request.folder);
-    ImportedRun run = import.run();
+    Imported run = import.run();
     folder.keep();
     return run;
 }

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 
 namespace grainreel {
 
@@ -25,7 +25,7 @@ struct ImportRequest {
     std::function<bool(double)> watcher{};
 };
 
-struct ImportedRun {
+struct Imported {
     std::filesystem::path folder;
     std::int64_t frames = 0, most_grains = 0;
     std::vector<std::string> news;  // what was guessed, left out or derived, a line for each
@@ -33,14 +33,14 @@ struct ImportedRun {
 
 // Throws UserError for what is wrong with the files, and RunError where the folder cannot be written. Nothing
 // unfinished is left.
-ImportedRun import_run(const ImportRequest& request);
+Imported import_run(const ImportRequest& request);
 
 // The same in the user's cache folder ($XDG_CACHE_HOME/grainreel/imports), where a later call with the same
 // files (by name, size, time and inode), options and program version finds it again. If all imports together
 // exceed 4 GB, those are removed that were not used for the longest time. Without a cache folder that is the
 // user's alone (own_folder.hpp) the import is made in the temporary folder. Throws UserError where a link or
 // somebody else has taken the name there.
-ImportedRun cached_import(ImportRequest request);
+Imported cached_import(ImportRequest request);
 
 // What is in that folder.
 struct ImportsKept {

@@ -111,7 +111,7 @@ std::string mesh_name(const std::string& wanted, const std::vector<std::string>&
 // rotation from row to row is larger than a radian. Before the first moment the wall stands still.
 std::string path_text(const ForeignArchive& archive, std::size_t wall) {
     constexpr double largest = 1;  // rad
-    const std::vector<Frame>& moments = archive.moments();
+    const std::vector<State>& moments = archive.moments();
     std::string text = "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n";
     const BodyPose first = moments.front().body(kFirstPlaneBody + wall);
     if (moments.front().time > 0) add_row(text, 0, first);
@@ -201,7 +201,7 @@ bool is_flat(const ImportSurvey& survey) {
 // The tables for the film: a picture for each frame, and no words for what the files do not say, such as
 // times or the direction of gravity. A flat bed is seen from above.
 std::string film_text(const ForeignArchive& archive, const ImportSurvey& survey, bool has_container) {
-    const std::vector<Frame>& moments = archive.moments();
+    const std::vector<State>& moments = archive.moments();
     const double span = moments.back().time - moments.front().time;
     const double interval =
         moments.size() > 1 ? span / static_cast<double>(moments.size() - 1) : 1 / kUntimedRate;
@@ -219,7 +219,7 @@ std::string film_text(const ForeignArchive& archive, const ImportSurvey& survey,
 
 }  // namespace
 
-void ImportSurvey::add(const Frame& frame, const std::vector<std::string>& types) {
+void ImportSurvey::add(const State& frame, const std::vector<std::string>& types) {
     // A new type may come between two others.
     std::vector<Species> now;
     for (const std::string& type : types) {
@@ -297,8 +297,8 @@ ImportWalls write_import_walls(const fs::path& folder, const ForeignArchive& arc
 std::string import_scene_text(const ForeignArchive& archive, const ImportSurvey& survey,
                               const ReadingOptions& options, const ImportWalls& walls,
                               std::vector<std::string>& news) {
-    const std::vector<Frame>& moments = archive.moments();
-    const Frame& one = moments.back().step != 0 ? moments.back() : moments.front();
+    const std::vector<State>& moments = archive.moments();
+    const State& one = moments.back().step != 0 ? moments.back() : moments.front();
     const double step = one.step != 0 && one.time != 0 ? one.time / static_cast<double>(one.step) : 1e-6;
     // The container may be fuller than what can be packed, because a start from a file is not checked.
     const std::string start =

@@ -9,8 +9,8 @@
 
 #include "engine/base/vector.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "engine/files/frames/frame_archive.hpp"
-#include "engine/frame.hpp"
+#include "engine/files/frames/state_archive.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -28,7 +28,7 @@ struct ImportSurvey {
     std::size_t places = 0;              // that a file needs for grains: as many as there are ids
 
     // Adds a frame, whose species are those of these types.
-    void add(const Frame& frame, const std::vector<std::string>& types);
+    void add(const State& frame, const std::vector<std::string>& types);
     // The corners of the box around all grains; those of a box of 1 m without grains.
     Vec3 lowest() const { return ids.empty() ? Vec3(Vec3::Constant(-0.5)) : low; }
     Vec3 highest() const { return ids.empty() ? Vec3(Vec3::Constant(0.5)) : high; }

@@ -32,8 +32,8 @@ Scene started_from(const Scene& scene, const fs::path& checkpoint) {
 
 // Loads the last usable checkpoint at or before `step`. If there is none, throws the error of the nearest
 // one, which was tried first.
-Simulation nearest_checkpoint(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,
-                              int threads) {
+SimulatedBed nearest_checkpoint(const fs::path& run, const std::vector<KeptCheckpoint>& kept,
+                                std::int64_t step, int threads) {
     std::optional<UserError> mistake;
     for (auto one = kept.rbegin(); one != kept.rend(); ++one) {
         if (one->step > step) continue;
@@ -50,7 +50,7 @@ Simulation nearest_checkpoint(const fs::path& run, const std::vector<KeptCheckpo
 }
 
 // Goes on to a later step. Throws RunError as replayed() does.
-void replay_on(Simulation& simulation, std::int64_t step, const ReplayWatcher& watcher) {
+void replay_on(SimulatedBed& simulation, std::int64_t step, const ReplayWatcher& watcher) {
     constexpr std::chrono::duration<double> stretch(0.1);
     const std::int64_t from = simulation.step();
     std::int64_t steps = 8;  // steps at a time
@@ -77,18 +77,18 @@ Plan plan_of_run(const Scene& scene, const fs::path& run) {
     return make_plan(started_from(scene, kept.front().file));
 }
 
-Simulation run_of_checkpoint(const fs::path& checkpoint, int threads) {
+SimulatedBed run_of_checkpoint(const fs::path& checkpoint, int threads) {
     Scene scene = scene_of_checkpoint(checkpoint);
     // Instruments and fields observe the run and do not change it.
     scene.output.instruments.clear();
     scene.wishes = {};
     scene.output.fields = {};
-    return Simulation::at_checkpoint(scene, make_plan(scene), checkpoint, threads, false, true);
+    return SimulatedBed::at_checkpoint(scene, make_plan(scene), checkpoint, threads, false, true);
 }
 
-Simulation replayed(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,
-                    int threads, const ReplayWatcher& watcher) {
-    Simulation simulation = nearest_checkpoint(run, kept, step, threads);
+SimulatedBed replayed(const fs::path& run, const std::vector<KeptCheckpoint>& kept, std::int64_t step,
+                      int threads, const ReplayWatcher& watcher) {
+    SimulatedBed simulation = nearest_checkpoint(run, kept, step, threads);
     replay_on(simulation, step, watcher);
     return simulation;
 }
@@ -110,7 +110,7 @@ bool Replayer::is_shortcut(std::int64_t from, std::int64_t to) const {
                        [&](const KeptCheckpoint& one) { return one.step > from && one.step <= to; });
 }
 
-Simulation& Replayer::at(std::int64_t step, const ReplayWatcher& watcher) {
+SimulatedBed& Replayer::at(std::int64_t step, const ReplayWatcher& watcher) {
     const bool goes_on =
         simulation_ && simulation_->step() <= step && !is_shortcut(simulation_->step(), step);
     if (goes_on) {

@@ -12,7 +12,7 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -28,13 +28,13 @@ Plan plan_of_run(const Scene& scene, const std::filesystem::path& run);
 
 // The run at a checkpoint, with the scene that the checkpoint holds. Instruments and fields are left out.
 // Throws UserError if the checkpoint cannot be used.
-Simulation run_of_checkpoint(const std::filesystem::path& checkpoint, int threads);
+SimulatedBed run_of_checkpoint(const std::filesystem::path& checkpoint, int threads);
 
 // Computes the run up to `step` from the last checkpoint of `kept` that is not after `step`. Damaged
 // checkpoints are skipped. `run` is named in messages. Throws UserError if no checkpoint can be used, and
 // RunError if the run is not healthy or the watcher stopped it.
-Simulation replayed(const std::filesystem::path& run, const std::vector<KeptCheckpoint>& kept,
-                    std::int64_t step, int threads, const ReplayWatcher& watcher);
+SimulatedBed replayed(const std::filesystem::path& run, const std::vector<KeptCheckpoint>& kept,
+                      std::int64_t step, int threads, const ReplayWatcher& watcher);
 
 // Brings a run on disk back to one step after the other. Rising steps cost no more than the run itself did
 // from the first to the last of them, because the engine goes on from one to the next.
@@ -48,7 +48,7 @@ class Replayer {
     // Whether the step has no checkpoint of its own, so that the engine must compute steps to reach it.
     bool goes_to(std::int64_t step) const;
     // The run at a step; valid until the next call. Throws as replayed() does.
-    Simulation& at(std::int64_t step, const ReplayWatcher& watcher);
+    SimulatedBed& at(std::int64_t step, const ReplayWatcher& watcher);
 
   private:
     // Whether a checkpoint lies between the two steps, or at the second.
@@ -57,7 +57,7 @@ class Replayer {
     std::filesystem::path run_;
     std::vector<KeptCheckpoint> kept_;
     int threads_;
-    std::optional<Simulation> simulation_;
+    std::optional<SimulatedBed> simulation_;
 };
 
 // The checkpoints in a run's folder that belong to this run, by rising step; the last one is whole. They have

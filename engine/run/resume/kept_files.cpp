@@ -128,8 +128,8 @@ namespace {
 
 class Ready {
   public:
-    Ready(const fs::path& run, const Scene& scene, const Plan& plan, const Simulation& simulation,
-          const std::string& version, FormerRun& former)
+    Ready(const fs::path& run, const Scene& scene, const Plan& plan, const SimulatedBed& simulation,
+          const std::string& version, FormerFiles& former)
         : run_(run),
           scene_(scene),
           plan_(plan),
@@ -220,16 +220,16 @@ class Ready {
     const fs::path& run_;
     const Scene& scene_;
     const Plan& plan_;
-    const Simulation& simulation_;
+    const SimulatedBed& simulation_;
     const TrajectoryInfo info_;
-    FormerRun& former_;
+    FormerFiles& former_;
 };
 
 }  // namespace
 
 ReadyFiles ready_files(const fs::path& run, const Scene& scene, const Plan& plan,
-                       const Simulation& simulation, std::optional<std::size_t> frames,
-                       const std::string& program_version, FormerRun& former) {
+                       const SimulatedBed& simulation, std::optional<std::size_t> frames,
+                       const std::string& program_version, FormerFiles& former) {
     Ready ready(run, scene, plan, simulation, program_version, former);
     ready.measures();
     ready.outflow();

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/former_run.hpp"
+#include "engine/files/former_files.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
@@ -48,7 +48,7 @@ struct ReadyFiles {
 // the number of frames of film_moments.nc that are kept; empty if that file is left alone. Throws UserError
 // for a file with which the run cannot go on.
 ReadyFiles ready_files(const std::filesystem::path& run, const Scene& scene, const Plan& plan,
-                       const Simulation& simulation, std::optional<std::size_t> frames,
-                       const std::string& program_version, FormerRun& former);
+                       const SimulatedBed& simulation, std::optional<std::size_t> frames,
+                       const std::string& program_version, FormerFiles& former);
 
 }  // namespace grainreel

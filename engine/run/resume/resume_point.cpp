@@ -56,14 +56,14 @@ bool is_former_end(const KeptCheckpoint& one, const CheckpointLabel& label, cons
     return false;
 }
 
-std::optional<Simulation> usable(const KeptCheckpoint& one, const Scene& scene, const Plan& plan, int threads,
-                                 std::optional<UserError>& mistake) {
+std::optional<SimulatedBed> usable(const KeptCheckpoint& one, const Scene& scene, const Plan& plan,
+                                   int threads, std::optional<UserError>& mistake) {
     try {
         if (const auto label = label_of_checkpoint(one.file)) {
             check_same_files(label->scene, scene, plan);
             if (keeps_fields(scene) && is_former_end(one, *label, scene, plan)) return std::nullopt;
         }
-        return Simulation::at_checkpoint(scene, plan, one.file, threads);
+        return SimulatedBed::at_checkpoint(scene, plan, one.file, threads);
     } catch (const UserError& error) {
         if (!mistake) mistake = error;
     }
@@ -111,7 +111,7 @@ ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const fs::pa
     std::optional<UserError> mistake;
     for (auto one = kept.rbegin(); one != kept.rend(); ++one) {
         if (one->step > limits.film || !files_reach(run, scene, plan, limits.first, one->step)) continue;
-        if (std::optional<Simulation> simulation = usable(*one, scene, plan, threads, mistake)) {
+        if (std::optional<SimulatedBed> simulation = usable(*one, scene, plan, threads, mistake)) {
             const auto end = std::lower_bound(frames.begin(), frames.end(), one->step);
             return {std::move(*simulation),
                     limits.first,

@@ -10,16 +10,16 @@
 
 #include "engine/files/run_json.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
 struct ResumePoint {
-    Simulation simulation;   // in the state of the checkpoint
-    std::int64_t first = 0;  // step at which the run began
-    std::size_t frames = 0;  // frames in film_moments.nc that were handed out before
+    SimulatedBed simulation;  // in the state of the checkpoint
+    std::int64_t first = 0;   // step at which the run began
+    std::size_t frames = 0;   // frames in film_moments.nc that were handed out before
     std::filesystem::path checkpoint{};
     std::string held_back{};              // why this is not the run's last checkpoint; empty if it is
     std::int64_t reached = 0;             // step that the run has already reached

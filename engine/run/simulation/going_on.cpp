@@ -7,14 +7,14 @@
 
 #include "engine/base/error.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
-#include "engine/run/simulation/simulation_impl.hpp"
+#include "engine/run/simulation/simulated_bed_impl.hpp"
 #include "engine/start/restart.hpp"
 
 namespace grainreel {
 
-Simulation Simulation::at_checkpoint(const Scene& scene, const Plan& plan,
-                                     const std::filesystem::path& checkpoint, int threads, bool may_change,
-                                     bool replays) {
+SimulatedBed SimulatedBed::at_checkpoint(const Scene& scene, const Plan& plan,
+                                         const std::filesystem::path& checkpoint, int threads,
+                                         bool may_change, bool replays) {
     Scene there = scene;
     there.start = {};
     there.start.method = Start::Method::file;
@@ -23,10 +23,10 @@ Simulation Simulation::at_checkpoint(const Scene& scene, const Plan& plan,
     const Impl::Takes what = replays      ? Impl::Takes::replay
                              : may_change ? Impl::Takes::changed_run
                                           : Impl::Takes::same_run;
-    return Simulation(std::make_unique<Impl>(there, plan, threads, what));
+    return SimulatedBed(std::make_unique<Impl>(there, plan, threads, what));
 }
 
-void Simulation::Impl::go_on() {
+void SimulatedBed::Impl::go_on() {
     make_loop();
     std::string gathered;
     std::vector<std::int64_t> given;
@@ -50,7 +50,7 @@ void Simulation::Impl::go_on() {
     }
 }
 
-void Simulation::Impl::check_not_over() const {
+void SimulatedBed::Impl::check_not_over() const {
     if (step >= plan.steps)
         throw UserError(
             fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
@@ -58,14 +58,14 @@ void Simulation::Impl::check_not_over() const {
 }
 
 // Loads the sums of walls, and then the data of the observers. If these are missing, gathering begins here.
-void Simulation::Impl::take_gathered(const std::string& bytes) {
+void SimulatedBed::Impl::take_gathered(const std::string& bytes) {
     Bytes in(bytes);
     take_wall_sums(in);
     observers.load(moment(), in);
     if (in.failed()) throw damaged_checkpoint(scene);
 }
 
-void Simulation::Impl::take_wall_sums(Bytes& in) {
+void SimulatedBed::Impl::take_wall_sums(Bytes& in) {
     WallSums sums;
     read_vector(in, sums.faces);
     read_vector(in, sums.slices);
@@ -78,27 +78,27 @@ void Simulation::Impl::take_wall_sums(Bytes& in) {
     }
 }
 
-void Simulation::Impl::save_wall_sums(std::ostream& out) const {
+void SimulatedBed::Impl::save_wall_sums(std::ostream& out) const {
     const WallSums sums = observers.need_wall_sums() ? loop->wall_sums() : WallSums();
     write_vector(out, sums.faces);
     write_vector(out, sums.slices);
 }
 
-std::string Simulation::Impl::gathered() const {
+std::string SimulatedBed::Impl::gathered() const {
     std::ostringstream out;
     save_wall_sums(out);
     observers.save(out);
     return out.str();
 }
 
-std::uint64_t Simulation::state_hash() const {
+std::uint64_t SimulatedBed::state_hash() const {
     std::ostringstream out;
     write_state(out, impl_->step, impl_->grains, *impl_->loop, impl_->feeder.given());
     const std::string bytes = out.str();
     return XXH64(bytes.data(), bytes.size(), 0);
 }
 
-CheckpointHeader Simulation::Impl::header() const {
+CheckpointHeader SimulatedBed::Impl::header() const {
     CheckpointHeader header;
     header.step = step;
     header.start_energy = start_energy;
@@ -109,7 +109,7 @@ CheckpointHeader Simulation::Impl::header() const {
     return header;
 }
 
-void Simulation::save_checkpoint(const std::filesystem::path& path) const {
+void SimulatedBed::save_checkpoint(const std::filesystem::path& path) const {
     const Impl& m = *impl_;
     grainreel::save_checkpoint(path, m.scene, m.plan, m.header(), m.grains, *m.loop, m.gathered(),
                                m.feeder.given());

@@ -15,7 +15,7 @@
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/mesh/load_mesh.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/run/simulation/simulation_impl.hpp"
+#include "engine/run/simulation/simulated_bed_impl.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/held_histories.hpp"
 #include "engine/start/layers.hpp"
@@ -44,7 +44,7 @@ double solid_fraction(const Container& container, const Grains& grains) {
 }  // namespace
 
 // Takes the grains of a file or a list at their places.
-void Simulation::Impl::take_grains() {
+void SimulatedBed::Impl::take_grains() {
     const bool from_checkpoint = scene.start.method == Start::Method::file && is_checkpoint(scene.start.file);
     if (from_checkpoint && scene.start.keep_clock) return go_on();
     grains = scene.start.method == Start::Method::grains ? listed_grains(scene)
@@ -60,7 +60,7 @@ void Simulation::Impl::take_grains() {
 
 // Begins with the grains that were taken. Contacts of a checkpoint that follow the same law here keep their
 // histories. The others get latches (largest overlaps, held_histories.hpp) with which the bed rests.
-void Simulation::Impl::begin_with_taken() {
+void SimulatedBed::Impl::begin_with_taken() {
     set_orientations();
     make_loop();
     loop->restart();
@@ -76,7 +76,7 @@ void Simulation::Impl::begin_with_taken() {
 }
 
 // Relaxes the bed of a file. If it turns out not to rest in this scene, it starts as it is in the file.
-SettleReport Simulation::Impl::relax_taken(const std::function<bool(double, std::int64_t)>& watcher) {
+SettleReport SimulatedBed::Impl::relax_taken(const std::function<bool(double, std::int64_t)>& watcher) {
     const Grains before = grains;
     SettleReport report = relax(scene, plan, around, grains, *loop, watcher);
     if (report.settled || !report.finished) return report;
@@ -86,14 +86,14 @@ SettleReport Simulation::Impl::relax_taken(const std::function<bool(double, std:
 }
 
 // Orientations do not act on the run, so a run may begin or cease to keep them when it goes on.
-void Simulation::Impl::set_orientations() {
+void SimulatedBed::Impl::set_orientations() {
     if (!orientations)
         grains.orientation.clear();
     else if (grains.orientation.empty())
         grains.orientation.assign(grains.size(), Quaternion::Identity());
 }
 
-bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgress& progress) {
+bool SimulatedBed::Impl::pack_layers(const PackingWatcher& watcher, PackingProgress& progress) {
     grains = place_in_layers(scene);
     set_orientations();
     if (grains.size() == 0) {  // all grains will come from feeds
@@ -112,7 +112,7 @@ bool Simulation::Impl::pack_layers(const PackingWatcher& watcher, PackingProgres
     return growth.finished;
 }
 
-bool Simulation::Impl::pack_rain(const PackingWatcher& watcher, PackingProgress& progress) {
+bool SimulatedBed::Impl::pack_rain(const PackingWatcher& watcher, PackingProgress& progress) {
     progress.stage = PackingProgress::Stage::raining;
     grains = {};
     make_loop();
@@ -128,7 +128,7 @@ bool Simulation::Impl::pack_rain(const PackingWatcher& watcher, PackingProgress&
 
 // Begins the account of work and energy. The forces are computed for the present state, so that the first
 // half step of the velocities is right.
-void Simulation::Impl::begin_drive() {
+void SimulatedBed::Impl::begin_drive() {
     std::fill(grains.wall_work.begin(), grains.wall_work.end(), 0.0);
     loop->begin_account();
     start_energy = total_energy(around, grains, *loop, 0);
@@ -139,12 +139,12 @@ void Simulation::Impl::begin_drive() {
     open_when_due();
 }
 
-void Simulation::Impl::open_exits() {
+void SimulatedBed::Impl::open_exits() {
     for (const Exit& exit : std::exchange(shut_exits, {})) around.exits.push_back(exit);
 }
 
 // Lets the grains leave that lie in an exit when the drive starts, and begins to measure.
-void Simulation::Impl::start_observers() {
+void SimulatedBed::Impl::start_observers() {
     const auto volume = [](double radius) { return math::cube(radius); };
     double stays = 0, leaves = 0;
     loop->let_leave(step);
@@ -157,11 +157,11 @@ void Simulation::Impl::start_observers() {
     observers.start(first, contacts());
 }
 
-PackingResult Simulation::pack() {
+PackingResult SimulatedBed::pack() {
     return pack([](const PackingProgress&) { return true; });
 }
 
-PackingResult Simulation::pack(const PackingWatcher& watcher, const WhenPacked& when_packed) {
+PackingResult SimulatedBed::pack(const PackingWatcher& watcher, const WhenPacked& when_packed) {
     Impl& m = *impl_;
     PackingResult result;
     PackingProgress progress;
@@ -243,7 +243,7 @@ bool sees_drive(const Scene& scene) {
     return scene.start.method == Start::Method::layers;
 }
 
-std::string text_of(const Drive& drive, const Pose& at_begin) {
+std::string text_of(const Drive& drive, const DrivePose& at_begin) {
     const auto numbers = [](const Vec3& v) { return fmt::format("{:a} {:a} {:a}", v.x(), v.y(), v.z()); };
     return fmt::format("drive {} {} {} {}\n", drive.present, static_cast<int>(drive.moves),
                        numbers(at_begin.offset), numbers(at_begin.velocity));
@@ -271,7 +271,7 @@ bool is_possible(const PackingResult& result) {
 
 }  // namespace
 
-std::string Simulation::packing_key() const {
+std::string SimulatedBed::packing_key() const {
     const Impl& m = *impl_;
     const std::string build = build_identity();
     const bool packs = m.scene.start.packs() ? m.scene.grains_at_start() > 0 : m.plan.start.relaxes;
@@ -283,17 +283,18 @@ std::string Simulation::packing_key() const {
     return key + written_scene(packed_part(m.scene, m.plan));
 }
 
-void Simulation::save_packing(const std::filesystem::path& file, const std::string& key,
-                              const PackingResult& result) const {
+void SimulatedBed::save_packing(const std::filesystem::path& file, const std::string& key,
+                                const PackingResult& result) const {
     const Impl& m = *impl_;
     GRAINREEL_CHECK(m.loop->traffic().left == 0);
     grainreel::save_checkpoint(file, key, m.header(), m.grains, *m.loop, m.gathered_of_packing(result),
                                m.feeder.given());
 }
 
-std::optional<Simulation> Simulation::with_packing(const Scene& scene, const Plan& plan,
-                                                   const std::filesystem::path& file, const std::string& key,
-                                                   int threads, PackingResult& result) {
+std::optional<SimulatedBed> SimulatedBed::with_packing(const Scene& scene, const Plan& plan,
+                                                       const std::filesystem::path& file,
+                                                       const std::string& key, int threads,
+                                                       PackingResult& result) {
     const std::optional<CheckpointLabel> label = label_of_checkpoint(file);
     if (!label || label->scene != key || label->step != 0) return std::nullopt;
     Scene there = scene;
@@ -304,7 +305,7 @@ std::optional<Simulation> Simulation::with_packing(const Scene& scene, const Pla
     try {
         auto impl = std::make_unique<Impl>(there, plan, threads, Impl::Takes::packing);
         result = impl->packed;
-        return Simulation(std::move(impl));
+        return SimulatedBed(std::move(impl));
     } catch (const UserError&) {
         return std::nullopt;
     }
@@ -312,7 +313,7 @@ std::optional<Simulation> Simulation::with_packing(const Scene& scene, const Pla
 
 // Takes what a kept packing holds besides the state. Observers gather from the start of the drive, so nothing
 // of theirs is kept except the last forces on walls.
-void Simulation::Impl::begin_packed(const std::string& gathered) {
+void SimulatedBed::Impl::begin_packed(const std::string& gathered) {
     Bytes in(gathered);
     take_wall_sums(in);
     std::uint8_t settled = 0;
@@ -324,7 +325,7 @@ void Simulation::Impl::begin_packed(const std::string& gathered) {
     if (in.failed() || in.left() > 0 || settled > 1 || !is_possible(packed)) throw damaged_checkpoint(scene);
 }
 
-std::string Simulation::Impl::gathered_of_packing(const PackingResult& result) const {
+std::string SimulatedBed::Impl::gathered_of_packing(const PackingResult& result) const {
     std::ostringstream out;
     save_wall_sums(out);
     write_value(out, static_cast<std::uint8_t>(result.settled ? 1 : 0));

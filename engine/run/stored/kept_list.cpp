@@ -17,10 +17,10 @@ namespace grainreel {
 
 namespace {
 
-std::size_t first_from(const std::vector<Frame>& moments, std::int64_t step) {
+std::size_t first_from(const std::vector<State>& moments, std::int64_t step) {
     const auto place =
         std::lower_bound(moments.begin(), moments.end(), step,
-                         [](const Frame& moment, std::int64_t wanted) { return moment.step < wanted; });
+                         [](const State& moment, std::int64_t wanted) { return moment.step < wanted; });
     return static_cast<std::size_t>(place - moments.begin());
 }
 
@@ -29,13 +29,13 @@ bool is_present(const std::filesystem::path& file) {
     return std::filesystem::exists(file, ignored);
 }
 
-std::unique_ptr<FrameArchive> open_moments(const std::filesystem::path& file) {
+std::unique_ptr<StateArchive> open_moments(const std::filesystem::path& file) {
     return open_frames(file, {.format = "trajectory"});
 }
 
 }  // namespace
 
-KeptList::KeptList(const FrameArchive& trajectory, const Scene& scene, const Clock& clock, bool with_keys)
+KeptList::KeptList(const StateArchive& trajectory, const Scene& scene, const Clock& clock, bool with_keys)
     : trajectory_(trajectory), scene_(scene), clock_(clock), moments_(trajectory.moments()) {
     for (std::size_t k = 0; k < moments_.size(); ++k) places_.push_back({k, {}, {}});
     read_film();
@@ -73,10 +73,10 @@ void KeptList::read_keys() {
 }
 
 // Throws UserError where the file is of another run.
-void KeptList::check(const FrameArchive& file, const std::string& name) const {
+void KeptList::check(const StateArchive& file, const std::string& name) const {
     check_species(scene_, file.world(), name);
     for (std::size_t k = 0; k < file.moments().size(); ++k) {
-        Frame moment = file.moments()[k];
+        State moment = file.moments()[k];
         add_planes(scene_.walls, moment.time, moment.bodies);
         check_drive(scene_, clock_, moment, fmt::format("{}: frame {}", name, file.place(k)));
     }
@@ -88,8 +88,8 @@ void KeptList::check(const FrameArchive& file, const std::string& name) const {
     check_grains_at_common_step(file, name);
 }
 
-void KeptList::check_grains_at_common_step(const FrameArchive& file, const std::string& name) const {
-    const std::vector<Frame>& kept = trajectory_.moments();
+void KeptList::check_grains_at_common_step(const StateArchive& file, const std::string& name) const {
+    const std::vector<State>& kept = trajectory_.moments();
     for (std::size_t k = 0; k < file.moments().size(); ++k) {
         const std::int64_t step = file.moments()[k].step;
         const std::size_t both = first_from(kept, step);
@@ -106,8 +106,8 @@ void KeptList::check_grains_at_common_step(const FrameArchive& file, const std::
     }
 }
 
-void KeptList::merge(const FrameArchive& file, std::optional<std::size_t> Place::*in_file) {
-    std::vector<Frame> moments;
+void KeptList::merge(const StateArchive& file, std::optional<std::size_t> Place::*in_file) {
+    std::vector<State> moments;
     std::vector<Place> places;
     std::size_t next = 0;  // index among the moments that are in the list already
     const auto take_until = [&](std::int64_t step) {
@@ -117,7 +117,7 @@ void KeptList::merge(const FrameArchive& file, std::optional<std::size_t> Place:
         }
     };
     for (std::size_t k = 0; k < file.moments().size(); ++k) {
-        Frame moment = file.moments()[k];
+        State moment = file.moments()[k];
         take_until(moment.step);
         if (moments.empty() || moments.back().step < moment.step) {
             add_planes(scene_.walls, moment.time, moment.bodies);
@@ -150,15 +150,15 @@ std::int64_t KeptList::nearest_step(std::int64_t step, bool of_trajectory) const
     return nearest;
 }
 
-Frame KeptList::grains(std::size_t index) const {
+State KeptList::grains(std::size_t index) const {
     const Place& place = places_.at(index);
     std::optional<DamagedFrame> damage;
-    const std::pair<const FrameArchive*, std::optional<std::size_t>> files[] = {
+    const std::pair<const StateArchive*, std::optional<std::size_t>> files[] = {
         {&trajectory_, place.trajectory}, {film_.get(), place.film}, {keys_.get(), place.key}};
     for (const auto& [file, number] : files) {
         if (!number) continue;
         try {
-            Frame frame = file->grains(*number);
+            State frame = file->grains(*number);
             if (file != &trajectory_) add_planes(scene_.walls, frame.time, frame.bodies);
             return frame;
         } catch (const DamagedFrame& problem) {
@@ -174,13 +174,13 @@ bool KeptList::has_contacts_of(std::size_t index) const {
            (place.trajectory && trajectory_.has_contacts_of(*place.trajectory));
 }
 
-std::optional<std::vector<Touch>> KeptList::touches(std::size_t index) const {
+std::optional<std::vector<Link>> KeptList::touches(std::size_t index) const {
     const Place& place = places_.at(index);
     if (place.key && key_contacts_->has_all(*place.key)) return key_contacts_->touches(*place.key);
     return place.trajectory ? trajectory_.touches(*place.trajectory) : std::nullopt;
 }
 
-bool same_grains(const Frame& kept, const Frame& other) {
+bool same_grains(const State& kept, const State& other) {
     constexpr double same_place = 1e-4;  // as a share of a grain's radius
     bool same = kept.id == other.id;
     for (std::size_t i = 0; same && i < kept.size(); ++i)

@@ -12,16 +12,16 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/files/contacts_file.hpp"
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
-class KeptList final : public FrameArchive {
+class KeptList final : public StateArchive {
   public:
     // trajectory: the frames of trajectory.nc, in the run's folder; it must outlive this object.
     // with_keys: whether the key moments are wanted.
-    KeptList(const FrameArchive& trajectory, const Scene& scene, const Clock& clock, bool with_keys);
+    KeptList(const StateArchive& trajectory, const Scene& scene, const Clock& clock, bool with_keys);
 
     // Index of a moment in each file that has it.
     struct Place {
@@ -34,17 +34,17 @@ class KeptList final : public FrameArchive {
     std::int64_t nearest_step(std::int64_t step, bool of_trajectory) const;
 
     const std::filesystem::path& path() const override { return trajectory_.path(); }
-    const World& world() const override { return trajectory_.world(); }
-    FrameSupply supply() const override { return trajectory_.supply(); }
-    const std::vector<Frame>& moments() const override { return moments_; }
+    const StoredWorld& world() const override { return trajectory_.world(); }
+    StateSupply supply() const override { return trajectory_.supply(); }
+    const std::vector<State>& moments() const override { return moments_; }
     // Takes the frame from the first file that has it undamaged.
-    Frame grains(std::size_t index) const override;
-    std::optional<std::vector<Touch>> touches(std::size_t index) const override;
+    State grains(std::size_t index) const override;
+    std::optional<std::vector<Link>> touches(std::size_t index) const override;
     bool has_contacts_of(std::size_t index) const override;
     int periods() const override { return trajectory_.periods(); }
 
     // The moments of the film's pictures, in the order of the pictures; null where they are not used.
-    const FrameArchive* film() const { return film_.get(); }
+    const StateArchive* film() const { return film_.get(); }
 
     // What is wrong with a file of moments beside the trajectory.
     struct Fault {
@@ -57,22 +57,22 @@ class KeptList final : public FrameArchive {
   private:
     void read_film();
     void read_keys();
-    void check(const FrameArchive& file, const std::string& name) const;
-    void check_grains_at_common_step(const FrameArchive& file, const std::string& name) const;
-    void merge(const FrameArchive& file, std::optional<std::size_t> Place::*in_file);
+    void check(const StateArchive& file, const std::string& name) const;
+    void check_grains_at_common_step(const StateArchive& file, const std::string& name) const;
+    void merge(const StateArchive& file, std::optional<std::size_t> Place::*in_file);
     std::filesystem::path file(const char* name) const { return trajectory_.path() / name; }
 
-    const FrameArchive& trajectory_;
+    const StateArchive& trajectory_;
     const Scene& scene_;
     const Clock& clock_;
-    std::unique_ptr<FrameArchive> film_, keys_;  // null where they are not used
+    std::unique_ptr<StateArchive> film_, keys_;  // null where they are not used
     std::optional<ContactsReader> key_contacts_;
-    std::vector<Frame> moments_;
+    std::vector<State> moments_;
     std::vector<Place> places_;  // one for each moment
     std::vector<Fault> film_faults_, key_faults_;
 };
 
 // Whether two frames have the same grains at the same places, as far as files keep them.
-bool same_grains(const Frame& kept, const Frame& other);
+bool same_grains(const State& kept, const State& other);
 
 }  // namespace grainreel

@@ -79,7 +79,7 @@ bool StoredRun::has_contacts_of(std::size_t index) const {
     }
 }
 
-std::optional<std::vector<Touch>> StoredRun::touches(std::size_t index) const {
+std::optional<std::vector<Link>> StoredRun::touches(std::size_t index) const {
     if (!contacts_) return frames_->touches(number(index));
     return has_contacts_of(index) ? std::optional(contacts_->touches(place(index))) : std::nullopt;
 }
@@ -110,8 +110,8 @@ void StoredRun::leave_out_unfinished_contacts() {
 }
 
 void StoredRun::check_contacts_of_run() const {
-    std::vector<Touch> touches;
-    Frame frame;
+    std::vector<Link> touches;
+    State frame;
     for (std::size_t i = moments().size(); i-- > 0 && touches.empty();) {
         try {
             frame = grains(i);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // The clock of the frames. Moments at step 0 alone do not tell it; then the scene's own step is taken.
-Clock clock_of_frames(const Scene& scene, const FrameArchive& frames) {
+Clock clock_of_frames(const Scene& scene, const StateArchive& frames) {
     const Clock clock = clock_of(scene, frames.moments());
     return clock.step == 0 && scene.run.step ? clock_of_steps(scene, *scene.run.step) : clock;
 }
@@ -31,17 +31,17 @@ Clock clock_of_frames(const Scene& scene, const FrameArchive& frames) {
 bool is_run_folder(const fs::path& path) {
     std::error_code ignored;
     if (!fs::is_directory(path, ignored)) return false;
-    FileHead head;
+    FileStart head;
     head.path = path;
     head.folder = true;
     for (const std::shared_ptr<const OwnReader>& own : own_readers())
         if (own->takes(head)) return false;
-    const FrameReader* const reader = reader_of(path);
+    const ReadFormat* const reader = reader_of(path);
     return reader != nullptr && reader->name == std::string("run");
 }
 
 // Numbers of the frames that were left out, `count` of them.
-std::vector<std::size_t> damaged_places(const FrameArchive& frames, std::size_t count) {
+std::vector<std::size_t> damaged_places(const StateArchive& frames, std::size_t count) {
     std::vector<std::size_t> places;
     std::size_t index = 0;
     for (std::size_t place = 0; places.size() < count; ++place) {
@@ -60,20 +60,20 @@ StoredRun::StoredRun(const fs::path& path, const StoredRunRequest& request) : th
         read_folder(folder_of_run(path), request);
         return;
     }
-    FrameRequest frames;
+    OpenRequest frames;
     frames.reading = request.reading;
     frames.scene_of_run = request.scene_of_run;
     take(open_frames(path, frames));
     if (threads_ && is_checkpoint(path)) restore(path);
 }
 
-StoredRun::StoredRun(std::shared_ptr<const FrameArchive> frames) {
+StoredRun::StoredRun(std::shared_ptr<const StateArchive> frames) {
     take(std::move(frames));
 }
 
 StoredRun::~StoredRun() = default;
 
-void StoredRun::take(std::shared_ptr<const FrameArchive> frames) {
+void StoredRun::take(std::shared_ptr<const StateArchive> frames) {
     frames_ = std::move(frames);
     kind_ = dynamic_cast<const ForeignArchive*>(frames_.get()) ? Kind::foreign : Kind::state;
     scene_ = frames_->scene() ? *frames_->scene() : scene_of(frames_->world());
@@ -81,7 +81,7 @@ void StoredRun::take(std::shared_ptr<const FrameArchive> frames) {
 }
 
 void StoredRun::read_folder(const fs::path& folder, const StoredRunRequest& request) {
-    FrameRequest frames{.format = "run", .scene_of_run = request.scene_of_run};
+    OpenRequest frames{.format = "run", .scene_of_run = request.scene_of_run};
     frames_ = open_frames(folder, frames);
     is_folder_ = true;
     scene_ = *frames_->scene();
@@ -108,19 +108,19 @@ void StoredRun::read_folder(const fs::path& folder, const StoredRunRequest& requ
 
 // The engine knows of a checkpoint's moment all that the run measured.
 void StoredRun::restore(const fs::path& checkpoint) {
-    const Simulation run = run_of_checkpoint(checkpoint, 1);
+    const SimulatedBed run = run_of_checkpoint(checkpoint, 1);
     restored_ = run.frame();
     restored_measures_ = MeasuredRow{restored_->time, run.measured(), run.measures().values()};
 }
 
-FrameSupply StoredRun::supply() const {
-    FrameSupply supply = frames_->supply();
+StateSupply StoredRun::supply() const {
+    StateSupply supply = frames_->supply();
     supply.contacts = supply.contacts || contacts_;
     supply.measures = supply.measures || measures_;
     return supply;
 }
 
-Frame StoredRun::grains(std::size_t index) const {
+State StoredRun::grains(std::size_t index) const {
     return restored_ ? *restored_ : frames_->grains(number(index));
 }
 
@@ -179,7 +179,8 @@ std::optional<StoredMoment> StoredRun::at(std::int64_t step, bool with_contacts,
                                     clock_.time(step)));
     bool stopped = false;
     try {
-        const Simulation& run = brought_back(step, [&](double done) { return !(stopped = !watcher(done)); });
+        const SimulatedBed& run =
+            brought_back(step, [&](double done) { return !(stopped = !watcher(done)); });
         StoredMoment moment{run.frame(), Origin::checkpoint};
         if (with_contacts) moment.touches = touches_of(run);
         return moment;
@@ -195,7 +196,7 @@ Replayer& StoredRun::replayer() {
     return *replayer_;
 }
 
-Simulation& StoredRun::brought_back(std::int64_t step, const ReplayWatcher& watcher) {
+SimulatedBed& StoredRun::brought_back(std::int64_t step, const ReplayWatcher& watcher) {
     prove(step, watcher);
     return replayer().at(step, watcher);
 }
@@ -203,10 +204,10 @@ Simulation& StoredRun::brought_back(std::int64_t step, const ReplayWatcher& watc
 void StoredRun::prove(std::int64_t step, const ReplayWatcher& watcher) {
     if (proven_ || !threads_) return;
     for (std::size_t k = moments().size(); k-- > 0;) {
-        const Frame& moment = moments()[k];
+        const State& moment = moments()[k];
         if (moment.step > step || !replayer().goes_to(moment.step)) continue;
         try {
-            const Frame kept = grains(k);
+            const State kept = grains(k);
             proven_ = same_grains(kept, replayer().at(moment.step, watcher).frame());
         } catch (const DamagedFrame&) {
             continue;
@@ -245,7 +246,7 @@ void StoredRun::check_all() {
     std::string first;
     for (std::size_t k = 0; k < moments().size(); ++k) {
         try {
-            const Frame frame = grains(k);
+            const State frame = grains(k);
             if (measures_) check_measured(scene_, *measures_, frame, name_of("measures.csv"));
             if (contacts_) contacts_->touches(place(k));
             whole_contacts_[place(k)] = true;
@@ -263,7 +264,7 @@ void StoredRun::check_all() {
 }
 
 void StoredRun::leave_out(const std::vector<std::size_t>& indices) {
-    std::vector<Frame> moments;
+    std::vector<State> moments;
     std::vector<std::size_t> numbers;
     for (std::size_t k = 0; k < this->moments().size(); ++k) {
         if (std::binary_search(indices.begin(), indices.end(), k)) continue;
@@ -292,8 +293,8 @@ std::vector<std::string> StoredRun::all_news() const {
     return lines;
 }
 
-std::vector<Touch> touches_of(const Simulation& run) {
-    std::vector<Touch> touches;
+std::vector<Link> touches_of(const SimulatedBed& run) {
+    std::vector<Link> touches;
     for (const SavedContact& one : run.contacts()) touches.push_back({one.first, one.second, one.normal});
     return touches;
 }

@@ -18,7 +18,7 @@
 
 #include "engine/base/clock.hpp"
 #include "engine/files/contacts_file.hpp"
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/wear_file.hpp"
 #include "engine/measure/measures.hpp"
@@ -42,9 +42,9 @@ struct Lack {
 };
 
 struct StoredMoment {
-    Frame frame;
+    State frame;
     Origin origin = Origin::trajectory;
-    std::optional<std::vector<Touch>> touches{};  // where they were asked for, and are known
+    std::optional<std::vector<Link>> touches{};  // where they were asked for, and are known
 };
 
 struct StoredRunRequest {
@@ -57,7 +57,7 @@ struct StoredRunRequest {
     bool contacts = true;  // whether contacts.nc is read
 };
 
-class StoredRun final : public FrameArchive {
+class StoredRun final : public StateArchive {
   public:
     // ours: our engine computed it. elsewhere: a scene that was handed over. imported: a copy of another
     // program's files. foreign: those files themselves. state: a checkpoint, a table of grains, or a
@@ -68,7 +68,7 @@ class StoredRun final : public FrameArchive {
     // measures.csv is of another run than its scene.
     explicit StoredRun(const std::filesystem::path& path, const StoredRunRequest& request = {});
     // Frames that a program has at hand; nothing is brought back.
-    explicit StoredRun(std::shared_ptr<const FrameArchive> frames);
+    explicit StoredRun(std::shared_ptr<const StateArchive> frames);
     ~StoredRun() override;
     StoredRun(const StoredRun&) = delete;
     StoredRun& operator=(const StoredRun&) = delete;
@@ -88,18 +88,18 @@ class StoredRun final : public FrameArchive {
 
     // The moments of the trajectory, or of other files, by index.
     const std::filesystem::path& path() const override { return frames_->path(); }
-    const World& world() const override { return frames_->world(); }
-    FrameSupply supply() const override;
-    const std::vector<Frame>& moments() const override { return moments_ ? *moments_ : frames_->moments(); }
-    Frame grains(std::size_t index) const override;
-    std::optional<std::vector<Touch>> touches(std::size_t index) const override;
+    const StoredWorld& world() const override { return frames_->world(); }
+    StateSupply supply() const override;
+    const std::vector<State>& moments() const override { return moments_ ? *moments_ : frames_->moments(); }
+    State grains(std::size_t index) const override;
+    std::optional<std::vector<Link>> touches(std::size_t index) const override;
     std::optional<std::vector<SavedContact>> contacts(std::size_t index) const override;
     bool has_contacts_of(std::size_t index) const override;
     std::optional<MeasuredRow> measured_near(std::size_t index) const override;
     std::shared_ptr<const FieldsReader> fields() const override;
     std::size_t place(std::size_t index) const override { return frames_->place(number(index)); }
     int periods() const override { return periods_.value_or(frames_->periods()); }
-    Frame first() const override { return is_folder_ ? first_whole() : frames_->first(); }
+    State first() const override { return is_folder_ ? first_whole() : frames_->first(); }
     const Scene* scene() const override { return frames_->scene(); }
     std::vector<std::string> news() const override;
 
@@ -117,7 +117,7 @@ class StoredRun final : public FrameArchive {
     std::optional<StoredMoment> at(std::int64_t step, bool with_contacts, const ReplayWatcher& watcher);
     // The engine at that step, for forces; valid until the next call. Throws UserError where a replay gives
     // other grains than were kept (prove), and RunError when it fails or the watcher stops it.
-    Simulation& brought_back(std::int64_t step, const ReplayWatcher& watcher);
+    SimulatedBed& brought_back(std::int64_t step, const ReplayWatcher& watcher);
     // Replays to a kept moment on the way to the step, if there is one, and compares the grains. Throws
     // UserError when they differ: then the checkpoints are of another run. Only the first call compares.
     void prove(std::int64_t step, const ReplayWatcher& watcher);
@@ -146,7 +146,7 @@ class StoredRun final : public FrameArchive {
     std::vector<std::string> all_news() const;
 
   private:
-    void take(std::shared_ptr<const FrameArchive> frames);
+    void take(std::shared_ptr<const StateArchive> frames);
     void read_folder(const std::filesystem::path& folder, const StoredRunRequest& request);
     void restore(const std::filesystem::path& checkpoint);
     Replayer& replayer();
@@ -165,10 +165,10 @@ class StoredRun final : public FrameArchive {
     void read_wear() const;
     void read_outflow() const;
 
-    std::shared_ptr<const FrameArchive> frames_;
+    std::shared_ptr<const StateArchive> frames_;
     bool is_folder_ = false;  // whether it is the folder of a run
     // The moments, and their numbers in frames_; set where some are left out.
-    std::optional<std::vector<Frame>> moments_;
+    std::optional<std::vector<State>> moments_;
     std::vector<std::size_t> numbers_;
     Kind kind_ = Kind::foreign;
     Scene scene_;
@@ -178,7 +178,7 @@ class StoredRun final : public FrameArchive {
     std::optional<ContactsReader> contacts_;
     std::optional<Lack> contacts_lack_;
     std::vector<std::string> faults_, news_;
-    std::optional<Frame> restored_;  // of a checkpoint
+    std::optional<State> restored_;  // of a checkpoint
     std::optional<MeasuredRow> restored_measures_;
     std::optional<Replayer> replayer_;
     bool proven_ = false;  // whether prove() has compared a replay with a kept moment
@@ -198,6 +198,6 @@ class StoredRun final : public FrameArchive {
 };
 
 // The touches of an engine's grains.
-std::vector<Touch> touches_of(const Simulation& run);
+std::vector<Link> touches_of(const SimulatedBed& run);
 
 }  // namespace grainreel

@@ -252,7 +252,7 @@ std::string holder_of(const Scene& scene, std::size_t mesh) {
     const std::string& own = scene.meshes[mesh].name;
     for (const Species& species : scene.species)
         if (species.name == own) return "a species";
-    for (const FreeWall& wall : scene.walls)
+    for (const ScenePlane& wall : scene.walls)
         if (wall.name == own) return "a plane";
     for (std::size_t other = 0; other < mesh; ++other)
         if (scene.meshes[other].name == own) return "another mesh";

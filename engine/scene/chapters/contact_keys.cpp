@@ -159,11 +159,11 @@ const KeyTable<Partners>& partners_table() {
 }
 
 // The keys that all contacts have in common.
-const KeyTable<Contact>& common_table() {
-    static const KeyTable<Contact> table{
-        choice("arms", &Contact::arms, arms_words, initial(),
+const KeyTable<SceneContacts>& common_table() {
+    static const KeyTable<SceneContacts> table{
+        choice("arms", &SceneContacts::arms, arms_words, initial(),
                "Lever arms of the tangential force; radius loses angular momentum.")
-            .unwritten_if([](const Contact& contact) { return !contact.rubs(); })};
+            .unwritten_if([](const SceneContacts& contact) { return !contact.rubs(); })};
     return table;
 }
 
@@ -266,7 +266,7 @@ void read_contact(Document& document, Scene& scene) {
 
     for (std::size_t k = 0; k < count * count; ++k)
         if (!has_glued(document, scene, {k / count, k % count})) forget_glued(text.grain[k]);
-    Contact& contact = scene.contact;
+    SceneContacts& contact = scene.contact;
     for (const PairText& pair : text.grain) contact.grain.push_back(resolved(pair, scene));
     for (const PairText& pair : text.wall) contact.wall.push_back(resolved(pair, scene));
     for (const PairText& pair : text.mesh) contact.mesh.push_back(resolved(pair, scene));

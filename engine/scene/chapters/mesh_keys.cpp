@@ -191,8 +191,8 @@ namespace {
 
 using namespace keys;
 
-const KeyTable<FreeWall>& wall_table() {
-    using W = FreeWall;
+const KeyTable<ScenePlane>& wall_table() {
+    using W = ScenePlane;
     static const KeyTable<W> table{
         text("name", &W::name, note("wall 1, wall 2, ..."),
              "Name of a plane, for messages. It may be anywhere, with a container or without one.")
@@ -217,7 +217,7 @@ void list_walls(Keys& all) {
 void read_walls(Document& document, Scene& scene) {
     for (std::size_t i = 0; i < document.size("wall"); ++i) {
         const std::string path = fmt::format("wall[{}]", i);
-        FreeWall wall;
+        ScenePlane wall;
         wall_table().read(document, scene, path, wall);
         make_unit(document, path + ".normal", wall.normal);
         if (wall.moves && !document.has("drive"))

@@ -22,7 +22,7 @@ using namespace keys;
 
 // Whether contact corrections are possible: they need a Walton-Braun spring with constant slopes, and
 // velocity Verlet, whose velocities belong to the middle of the step.
-bool correctable(const Contact& contact, Integrator integrator) {
+bool correctable(const SceneContacts& contact, Integrator integrator) {
     const auto constant = [](const PairContact& pair) {
         return pair.normal == NormalLaw::walton_braun && !pair.restitution_speed &&
                pair.restitution_table.empty();

@@ -26,7 +26,7 @@ void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chu
                                  .rounded = rounded,
                                  .sorted = sorted};
     if (group.of_pairs) return add_pairs(forces, grains);
-    const WallForces at_walls{forces, in.walls, in.times.acts, grains};
+    const WallLoads at_walls{forces, in.walls, in.times.acts, grains};
     if (group.of_mesh) return add_at_meshes(at_walls);
     in.walls.turning && !group.of_glued ? add_at_points(at_walls, false) : add_walls(at_walls);
 }
@@ -53,7 +53,7 @@ void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& co
 
             const LawInput law = law_input(in, group, chunk, rounded, memory);
             table.note_touching(c, memory.touch.touching);
-            // From here to the formula: step_chunk() loads a register of contacts and ContactLaw::force()
+            // From here to the formula: step_chunk() loads a register of contacts and LawPair::force()
             // joins the two laws (both in engine/laws/contact_law-inl.hpp). The force() of a law is the
             // formula: SpringDashpot::force() (spring_dashpot-inl.hpp), LinearSpring::force()
             // (linear_spring-inl.hpp) and so on.

@@ -85,7 +85,7 @@ void pairs(const ChunkOfContacts& chunk, Grains& grains) {
 
 // The work (J) that walls do on their grains. `force` is the force on the wall.
 template <class L>
-HWY_INLINE void put_work(const WallForces& in, int c, const Triple<L>& force, double* work) {
+HWY_INLINE void put_work(const WallLoads& in, int c, const Triple<L>& force, double* work) {
     alignas(64) double rows[3][L::count];
     store_as(force.x, rows[0]), store_as(force.y, rows[1]), store_as(force.z, rows[2]);
     const auto* at_end = reinterpret_cast<const double*>(in.walls.motion.data()) + 4;
@@ -98,7 +98,7 @@ HWY_INLINE void put_work(const WallForces& in, int c, const Triple<L>& force, do
 
 // Tallies the forces on the faces. The forces on the grains do not depend on this.
 template <class L>
-void note(const WallForces& in, int c, const Triple<L>& force) {
+void note(const WallLoads& in, int c, const Triple<L>& force) {
     const ChunkOfContacts& chunk = in.contacts;
     const std::size_t size = chunk.rounded ? sizeof(float) : sizeof(double);
     alignas(64) double rows[3][L::count];
@@ -120,7 +120,7 @@ void note(const WallForces& in, int c, const Triple<L>& force) {
 }
 
 template <class L, bool rubs>
-void walls_of(const WallForces& in) {
+void walls_of(const WallLoads& in) {
     const ChunkOfContacts& chunk = in.contacts;
     alignas(64) double work[L::count];
     for (int c = 0; c < chunk.count; c += L::count) {
@@ -138,11 +138,11 @@ void walls_of(const WallForces& in) {
 }
 
 template <class L>
-void walls_at(const WallForces& in) {
+void walls_at(const WallLoads& in) {
     in.contacts.rubs ? walls_of<L, true>(in) : walls_of<L, false>(in);
 }
 
-void add_to_walls(const WallForces& in) {
+void add_to_walls(const WallLoads& in) {
     in.contacts.rounded ? walls_at<FloatLanes>(in) : walls_at<Lanes>(in);
 }
 
@@ -159,7 +159,7 @@ void add_pairs(const ChunkOfContacts& chunk, Grains& grains) {
     HWY_DYNAMIC_DISPATCH(pairs)(chunk, grains);
 }
 
-void add_walls(const WallForces& forces) {
+void add_walls(const WallLoads& forces) {
     HWY_DYNAMIC_DISPATCH(add_to_walls)(forces);
 }
 

@@ -24,7 +24,7 @@ struct ChunkOfContacts {
 // Adds the forces of pairs to the loads of their grains. Each grain sums its forces in the contacts' order.
 void add_pairs(const ChunkOfContacts& chunk, Grains& grains);
 
-struct WallForces {
+struct WallLoads {
     const ChunkOfContacts& contacts;
     const WallState& walls;
     double step;  // s, how long the forces act
@@ -32,14 +32,14 @@ struct WallForces {
 };
 
 // Adds the forces of walls to the grains' loads, and the work of moving walls to Grains::wall_work.
-void add_walls(const WallForces& forces);
+void add_walls(const WallLoads& forces);
 
 // Does what add_walls() does, for walls whose points move in different ways: meshes, and faces where one of
 // them turns. The contacts' second bodies are faces, or patches of meshes.
-void add_at_points(const WallForces& forces, bool of_meshes);
+void add_at_points(const WallLoads& forces, bool of_meshes);
 // Adds the load of contact c alone, which must touch.
-void add_at_point(const WallForces& forces, bool of_meshes, int c);
+void add_at_point(const WallLoads& forces, bool of_meshes, int c);
 // Does what add_at_points() does for patches of meshes, a register at a time and with the same bits.
-void add_at_meshes(const WallForces& forces);
+void add_at_meshes(const WallLoads& forces);
 
 }  // namespace grainreel

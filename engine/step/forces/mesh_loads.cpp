@@ -36,7 +36,7 @@ HWY_INLINE Triple<Lanes> wide_triple(const Row* rows, int c) {
 
 // Adds the forces of kLanes contacts from c on, all with one mesh.
 template <class Number, bool rubs>
-HWY_INLINE void add_register(const WallForces& in, const WallPose& pose, int c) {
+HWY_INLINE void add_register(const WallLoads& in, const WallPose& pose, int c) {
     const ChunkOfContacts& chunk = in.contacts;
     const Lanes zero(0.0), normal = wide_row<Number>(chunk.force->normal, c);
     const Triple<Lanes> k = wide_triple<Number>(chunk.touch->normal, c);
@@ -64,7 +64,7 @@ HWY_INLINE void add_register(const WallForces& in, const WallPose& pose, int c) 
 }
 
 template <class Number, bool rubs>
-void meshes_of(const WallForces& in) {
+void meshes_of(const WallLoads& in) {
     const ChunkOfContacts& chunk = in.contacts;
     for (int c = 0; c < chunk.count; c += kLanes) {
         const std::int32_t mesh = mesh_of(chunk.second[c]);
@@ -80,11 +80,11 @@ void meshes_of(const WallForces& in) {
 }
 
 template <class Number>
-void meshes_in(const WallForces& in) {
+void meshes_in(const WallLoads& in) {
     in.contacts.rubs ? meshes_of<Number, true>(in) : meshes_of<Number, false>(in);
 }
 
-void add_to_meshes(const WallForces& in) {
+void add_to_meshes(const WallLoads& in) {
     in.contacts.rounded ? meshes_in<float>(in) : meshes_in<double>(in);
 }
 
@@ -97,7 +97,7 @@ namespace grainreel {
 HWY_EXPORT(add_to_meshes);
 
 // If the forces on walls are tallied, each force is needed by itself, so the contacts are taken one by one.
-void add_at_meshes(const WallForces& forces) {
+void add_at_meshes(const WallLoads& forces) {
     if (forces.walls.tally) return add_at_points(forces, true);
     HWY_DYNAMIC_DISPATCH(add_to_meshes)(forces);
 }

@@ -15,7 +15,7 @@ Vec3 vector_of(const Row* rows, int c, std::size_t size) {
 }  // namespace
 
 // The force acts on the wall at the point of its surface. The torque of the resistance to rolling is added.
-void add_at_point(const WallForces& in, bool of_meshes, int c) {
+void add_at_point(const WallLoads& in, bool of_meshes, int c) {
     const ChunkOfContacts& chunk = in.contacts;
     const std::size_t size = chunk.rounded ? sizeof(float) : sizeof(double);
     const std::int32_t grain = chunk.first[c], second = chunk.second[c];
@@ -40,7 +40,7 @@ void add_at_point(const WallForces& in, bool of_meshes, int c) {
     if (in.walls.tally) in.walls.tally->add(wall, force, normal, point - pose.point, couple);
 }
 
-void add_at_points(const WallForces& in, bool of_meshes) {
+void add_at_points(const WallLoads& in, bool of_meshes) {
     for (int c = 0; c < in.contacts.count; ++c)
         if (in.contacts.touch->touches(c)) add_at_point(in, of_meshes, c);
 }

@@ -27,8 +27,8 @@ FaceMotion motion_of(const Vec3& gone, double step, const Vec3& velocity) {
 
 }  // namespace
 
-void WallPose::set(const Body& body, const Vec3& rest_point, const Pose& before_drive, const Pose& now_drive,
-                   double step) {
+void WallPose::set(const Body& body, const Vec3& rest_point, const DrivePose& before_drive,
+                   const DrivePose& now_drive, double step) {
     const BodyPose before = body.at(before_drive);
     now = body.at(now_drive);
     turned = now.rotation.toRotationMatrix();
@@ -45,7 +45,7 @@ void WallPose::set(const Body& body, const Vec3& rest_point, const Pose& before_
     slides = turned.isIdentity(0) && rate.isZero(0);
 }
 
-void WallState::set(const Surroundings& around, const Pose& before, const Pose& now, double step) {
+void WallState::set(const Surroundings& around, const DrivePose& before, const DrivePose& now, double step) {
     set(around.faces, before, now, step);
     if (!turning && around.meshes.empty()) return;
     poses.resize(around.faces.size() + around.meshes.size());
@@ -60,7 +60,8 @@ void WallState::set(const Surroundings& around, const Pose& before, const Pose& 
         poses[around.faces.size() + m].set(around.meshes[m].body, around.meshes[m].point, before, now, step);
 }
 
-void WallState::set(const std::vector<Face>& from, const Pose& before, const Pose& now, double step) {
+void WallState::set(const std::vector<Face>& from, const DrivePose& before, const DrivePose& now,
+                    double step) {
     faces.resize(from.size());
     motion.resize(from.size());
     any_round = turning = false;

@@ -59,7 +59,8 @@ struct WallPose {
 
     // Sets the pose of a wall that moves from `before` to `now` within `step` seconds. `rest_point` (m) is
     // `point` at rest.
-    void set(const Body& body, const Vec3& rest_point, const Pose& before, const Pose& now, double step);
+    void set(const Body& body, const Vec3& rest_point, const DrivePose& before, const DrivePose& now,
+             double step);
     // Velocity (m/s) of a point given in the body's frame: its displacement in the step, divided by the step.
     Vec3 mean_velocity(const Vec3& at_rest) const { return slides ? moved : Vec3(moved + rate * at_rest); }
     // Takes a place (m) from the scene to the body's frame.
@@ -87,8 +88,8 @@ struct WallState {
 
     // Sets walls that move from `before` to `now` within `step` seconds. If `step` is 0, the velocity is that
     // of `now`.
-    void set(const Surroundings& around, const Pose& before, const Pose& now, double step);
-    void set(const std::vector<Face>& from, const Pose& before, const Pose& now, double step);
+    void set(const Surroundings& around, const DrivePose& before, const DrivePose& now, double step);
+    void set(const std::vector<Face>& from, const DrivePose& before, const DrivePose& now, double step);
     const WallPose& pose_of_mesh(std::int32_t mesh) const {
         return poses[faces.size() + static_cast<std::size_t>(mesh)];
     }

@@ -16,7 +16,7 @@ constexpr std::size_t kFew = 4;  // a level has few grains if it has less than o
 }  // namespace
 
 void Grid::lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& members, double width,
-               const GridFrame& frame) {
+               const GridLayout& frame) {
     const std::size_t n = members.size();
     periodic_ = frame.period > 0;
     axes_ = frame.axes;
@@ -123,8 +123,8 @@ void Cells::find_members() {
 
 namespace {
 
-GridFrame frame_of(const LargeArray<Place>& place, double period) {
-    GridFrame frame{place[0].position, place[0].position, place.size(), {0, 1, 2}, period};
+GridLayout frame_of(const LargeArray<Place>& place, double period) {
+    GridLayout frame{place[0].position, place[0].position, place.size(), {0, 1, 2}, period};
     for (const Place& p : place) {
         frame.low = frame.low.cwiseMin(p.position);
         frame.high = frame.high.cwiseMax(p.position);

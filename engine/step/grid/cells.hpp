@@ -15,7 +15,7 @@ namespace grainreel {
 
 // What the grids over a bed have in common. `axes` is the order in which boxes follow each other, the fastest
 // axis first. `period` (m) is the period of x, centred on 0, with x as the fastest axis; 0 for none.
-struct GridFrame {
+struct GridLayout {
     Vec3 low{0, 0, 0}, high{0, 0, 0};  // m, around all grains
     std::size_t grains = 0;
     std::array<int, 3> axes{0, 1, 2};
@@ -29,7 +29,7 @@ class Grid {
     // at most a few boxes for each grain: in a tall container that is mostly empty they are wider. Grids of
     // one frame and one width have the same boxes.
     void lay(const LargeArray<Place>& place, const std::vector<std::int32_t>& members, double width,
-             const GridFrame& frame);
+             const GridLayout& frame);
     // Call it when all members have been put in the grid's order. Only `members` stay, given by their rising
     // new indices.
     void keep(const std::vector<std::int32_t>& members);
@@ -128,7 +128,7 @@ class Cells {
     // Finds a new order of the grains: in_order()[new] = old. It follows the boxes of the level that has most
     // grains, slowest along the bed's longest side. So grains that touch lie close in memory, and few
     // contacts are between grains of two threads. The bits of a run depend on this order, because it is the
-    // order in which forces are summed. `skin` is in m, and `period` is as in GridFrame. in_order() is valid
+    // order in which forces are summed. `skin` is in m, and `period` is as in GridLayout. in_order() is valid
     // until lay().
     void order(const LargeArray<Place>& place, double skin, double period);
     const std::vector<std::int32_t>& in_order() const { return levels_[leading_].grid.in_order(); }
@@ -155,7 +155,7 @@ class Cells {
     std::size_t leading_ = 0;                        // the level with most members
     std::vector<std::uint8_t> octave_of_;            // one for each grain before they were put in order
     std::array<std::uint8_t, kOctaves> level_of_{};  // one for each octave
-    GridFrame frame_;
+    GridLayout frame_;
 };
 
 }  // namespace grainreel

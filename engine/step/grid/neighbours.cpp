@@ -101,7 +101,7 @@ void list_pairs(const Cells& cells, const Grains& grains, double skin, double pe
     }
 }
 
-void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose& pose, double skin,
+void list_walls(const Grains& grains, const std::vector<Face>& faces, const DrivePose& pose, double skin,
                 std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part) {
     part.clear();
     for (std::int32_t i = begin; i < end; ++i) {
@@ -128,7 +128,7 @@ GluedSearch::GluedSearch(const GluedGrains& glued, const std::vector<Face>& face
         members[part].push_back(static_cast<std::int32_t>(g));
     }
     for (std::size_t part = 0; part < parts_.size(); ++part) {
-        GridFrame frame;
+        GridLayout frame;
         frame.low = frame.high = at_rest_[members[part][0]].position;
         for (const std::int32_t g : members[part]) {
             frame.low = frame.low.cwiseMin(at_rest_[g].position);
@@ -141,7 +141,7 @@ GluedSearch::GluedSearch(const GluedGrains& glued, const std::vector<Face>& face
     }
 }
 
-void GluedSearch::list(const Grains& grains, const Pose& pose, double skin, std::int32_t begin,
+void GluedSearch::list(const Grains& grains, const DrivePose& pose, double skin, std::int32_t begin,
                        std::int32_t end, std::vector<WallNeighbour>& part) const {
     part.clear();
     if (parts_.empty()) return;
@@ -197,8 +197,8 @@ class MeshSearch {
 
 }  // namespace
 
-void list_meshes(const Grains& grains, const std::vector<MeshWall>& meshes, const Pose& pose, double skin,
-                 std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part) {
+void list_meshes(const Grains& grains, const std::vector<MeshWall>& meshes, const DrivePose& pose,
+                 double skin, std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part) {
     part.clear();
     MeshSearch search(grains, skin, part);
     for (std::size_t m = 0; m < meshes.size(); ++m)

@@ -51,7 +51,7 @@ void put_in_order(const TeamMember& me, Cells& cells, Grains& grains, double ski
 // end) only. In the part that list_pairs() makes, start[0] belongs to grain `begin`.
 void list_pairs(const Cells& cells, const Grains& grains, double skin, double period, std::int32_t begin,
                 std::int32_t end, NeighbourList& part);
-void list_walls(const Grains& grains, const std::vector<Face>& faces, const Pose& pose, double skin,
+void list_walls(const Grains& grains, const std::vector<Face>& faces, const DrivePose& pose, double skin,
                 std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part);
 
 // keep_near() may read and write this many numbers after the candidates.
@@ -73,7 +73,7 @@ class GluedSearch {
     // Calls each(number, distance) for all glued grains whose surface is closer to `centre` than `gap` (m),
     // at a pose of the drive, in no particular order.
     template <class Each>
-    void near(const Vec3& centre, double gap, const Pose& pose, const Each& each) const {
+    void near(const Vec3& centre, double gap, const DrivePose& pose, const Each& each) const {
         for (const OfBody& part : parts_) {
             const Vec3 at_rest = centre - part.body.place_at(pose);
             part.grid.near(at_rest, gap + largest_, false, [&](const std::int32_t* first, const auto* last) {
@@ -85,7 +85,7 @@ class GluedSearch {
     }
 
     // Lists the glued grains near the grains [begin, end), by rising grain, then glued grain.
-    void list(const Grains& grains, const Pose& pose, double skin, std::int32_t begin, std::int32_t end,
+    void list(const Grains& grains, const DrivePose& pose, double skin, std::int32_t begin, std::int32_t end,
               std::vector<WallNeighbour>& part) const;
 
   private:
@@ -108,7 +108,7 @@ class GluedSearch {
 
 // Lists every mesh whose surface is closer than `skin` (m) to the surface of one of the grains [begin, end),
 // by rising grain, then mesh.
-void list_meshes(const Grains& grains, const std::vector<MeshWall>& meshes, const Pose& pose, double skin,
-                 std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part);
+void list_meshes(const Grains& grains, const std::vector<MeshWall>& meshes, const DrivePose& pose,
+                 double skin, std::int32_t begin, std::int32_t end, std::vector<WallNeighbour>& part);
 
 }  // namespace grainreel

@@ -53,7 +53,7 @@ void BedLists::renew(int thread, const Vec3& fastest, std::int64_t parted, const
     if (thread == 0) ++refreshes_;
 }
 
-void BedLists::rebuild(int thread, const Pose& pose, double time, double lasted) {
+void BedLists::rebuild(int thread, const DrivePose& pose, double time, double lasted) {
     const TeamMember me{team_, thread};
     shares_.begin_lists(thread);
     if (me.leads()) {
@@ -84,7 +84,7 @@ void BedLists::rebuild(int thread, const Pose& pose, double time, double lasted)
 
 // Searches for the neighbours of the thread's part of the grains. A single thread writes the joint lists
 // directly.
-void BedLists::search(int thread, const Pose& pose) {
+void BedLists::search(int thread, const DrivePose& pose) {
     const bool alone = team_.size() == 1;
     Thread& mine = threads_[thread];
     const std::int32_t begin = shares_.search_begin(thread), end = shares_.search_end(thread);
@@ -154,7 +154,7 @@ void BedLists::place_halos() {
     if (team_.size() > 1) reserve_copies(grains_, end_of_copies - grains());
 }
 
-Nearby BedLists::nearby(const Pose& now, double skin) const {
+Nearby BedLists::nearby(const DrivePose& now, double skin) const {
     return {grains_, lists_, around_.faces, around_.glued, around_.meshes, now, skin};
 }
 
@@ -255,7 +255,7 @@ void BedLists::save(std::ostream& out) const {
     transfer(*this, kept, steps, life_.reach(0), Writing{out});
 }
 
-void BedLists::load(Bytes& in, const Pose& now) {
+void BedLists::load(Bytes& in, const DrivePose& now) {
     std::vector<KeptContacts> kept(rules_.groups.size());
     Reach reach;
     std::int32_t steps = 0;

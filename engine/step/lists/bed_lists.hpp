@@ -40,7 +40,7 @@ class BedLists {
 
     // Puts the grains in order and makes new neighbour lists. Contacts keep their histories. All threads call
     // it. `time` is in steps, and `lasted` is the number of steps that the last lists have lasted.
-    void rebuild(int thread, const Pose& pose, double time, double lasted);
+    void rebuild(int thread, const DrivePose& pose, double time, double lasted);
     // Makes those lists anew that no longer reach far enough. All threads call it in each evaluation.
     // `fastest` and `parted` are as in ListLife::contacts_expired(), and `step` is in s.
     void renew(int thread, const Vec3& fastest, std::int64_t parted, const Evaluation& at, double step,
@@ -76,7 +76,7 @@ class BedLists {
     // Writes lists and histories, bit by bit. load() reads them. Reading fails for anything that save()
     // cannot have written with these grains and faces; no index is trusted.
     void save(std::ostream& out) const;
-    void load(Bytes& in, const Pose& now);
+    void load(Bytes& in, const DrivePose& now);
 
     std::int64_t rebuilds() const { return rebuilds_; }
     std::int64_t refreshes() const { return refreshes_; }
@@ -94,8 +94,8 @@ class BedLists {
 
     std::int32_t grains() const { return static_cast<std::int32_t>(grains_.size()); }
     // The input of a search, for grains and walls as they are now.
-    Nearby nearby(const Pose& now, double skin) const;
-    void search(int thread, const Pose& pose);
+    Nearby nearby(const DrivePose& now, double skin) const;
+    void search(int thread, const DrivePose& pose);
     void join_parts(const TeamMember& me);
     std::ptrdiff_t found_before(int thread, std::vector<WallNeighbour> Thread::*part) const;
     void change_owners(const TeamMember& me);

@@ -18,7 +18,7 @@ struct Nearby {
     const std::vector<Face>& faces;
     const GluedGrains& glued;
     const std::vector<MeshWall>& meshes;
-    const Pose& pose;
+    const DrivePose& pose;
     double skin;  // m; pairs that are closer than this become candidates
 };
 

@@ -28,7 +28,7 @@ void ListLife::set_next_skin(double lasted) {
     next_skin_ = std::clamp(factor * skin_, kLeastSkin * around_.skin, kMostSkin * around_.skin);
 }
 
-void ListLife::note_listing(const Grains& grains, const Pose& pose, double time) {
+void ListLife::note_listing(const Grains& grains, const DrivePose& pose, double time) {
     listed_at_.resize(grains.size());
     listed_velocity_.setZero();
     for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -67,7 +67,8 @@ bool ListLife::contacts_expired(int thread, const Vec3& fastest, std::int64_t pa
            reach.moved + ways_.farthest(reach.pose, at.now, flown) > reach.skin;
 }
 
-void ListLife::set_reach(int thread, const Pose& now, const Vec3& drift, const Vec3& frame, double step) {
+void ListLife::set_reach(int thread, const DrivePose& now, const Vec3& drift, const Vec3& frame,
+                         double step) {
     constexpr double kStepsPerRefresh = 48, kLeastShare = 1e-3, kMostShare = 0.4;
     Reach& reach = threads_[thread].reach;
     const double wall = ways_.fastest(now, frame);
@@ -91,7 +92,7 @@ void ListLife::measure(int thread, const Grains& grains, std::int32_t begin, std
     threads_[thread].farthest = farthest;
 }
 
-bool ListLife::lists_expired(int thread, const Pose& now, const Vec3& drift) const {
+bool ListLife::lists_expired(int thread, const DrivePose& now, const Vec3& drift) const {
     const double moved = farthest();
     const double used = moved + std::max(moved, ways_.farthest(listed_pose_, now, drift));
     return used + threads_[thread].reach.skin > skin_;
@@ -117,7 +118,7 @@ void ListLife::add_unlisted() {
 
 namespace {
 
-bool is_finite(const Pose& pose) {
+bool is_finite(const DrivePose& pose) {
     return pose.offset.allFinite() && pose.velocity.allFinite() && std::isfinite(pose.time);
 }
 
@@ -141,15 +142,16 @@ bool are_parallel(const Vec3& a, const Vec3& b) {
 
 // Largest displacement (m) of a body's points relative to a frame displaced by `flown`. A turn moves a point
 // by 2 sin(angle / 2) times its distance from the axis.
-double way_of(const Body& body, const Vec3& centre, double radius, const Pose& before, const Pose& now,
-              const Vec3& flown) {
+double way_of(const Body& body, const Vec3& centre, double radius, const DrivePose& before,
+              const DrivePose& now, const Vec3& flown) {
     const BodyPose was = body.at(before), is = body.at(now);
     const Vec3 gone = is.moved(centre) - was.moved(centre) - flown;
     const double turned = 2 * (is.rotation * was.rotation.conjugate()).vec().norm();
     return gone.norm() + turned * radius;
 }
 
-double speed_of(const Body& body, const Vec3& centre, double radius, const Pose& now, const Vec3& frame) {
+double speed_of(const Body& body, const Vec3& centre, double radius, const DrivePose& now,
+                const Vec3& frame) {
     const BodyPose is = body.at(now);
     return (is.velocity_at(is.moved(centre)) - frame).norm() + is.spin.norm() * radius;
 }
@@ -178,7 +180,7 @@ WallWays::Swing WallWays::swing_of(const MeshWall& mesh) {
     return {body.turn->through, mesh.surface->farthest_from_axis(body.turn->through, body.turn->axis)};
 }
 
-double WallWays::farthest(const Pose& before, const Pose& now, const Vec3& flown) const {
+double WallWays::farthest(const DrivePose& before, const DrivePose& now, const Vec3& flown) const {
     double squared = 0, of_turning = 0;
     for (const Face& face : around_.faces) {
         if (face.body.has_own_motion()) {
@@ -196,7 +198,7 @@ double WallWays::farthest(const Pose& before, const Pose& now, const Vec3& flown
     return std::max(std::sqrt(squared), of_turning);
 }
 
-double WallWays::fastest(const Pose& now, const Vec3& frame) const {
+double WallWays::fastest(const DrivePose& now, const Vec3& frame) const {
     double fastest = 0;
     for (const Face& face : around_.faces) {
         if (face.body.has_own_motion()) {

@@ -22,9 +22,9 @@ class WallWays {
 
     // The largest displacement (m) of any point of any wall between two poses, relative to a frame displaced
     // by `flown`.
-    double farthest(const Pose& before, const Pose& now, const Vec3& flown) const;
+    double farthest(const DrivePose& before, const DrivePose& now, const Vec3& flown) const;
     // The largest speed (m/s) of any point of any wall relative to a frame with the velocity `frame`.
-    double fastest(const Pose& now, const Vec3& frame) const;
+    double fastest(const DrivePose& now, const Vec3& frame) const;
 
   private:
     // A body's points lie within `radius` (m) of an axis through `centre`, about which it turns.
@@ -47,7 +47,7 @@ struct Reach {
     double fastest = 0;       // m/s, the largest speed of the last step
     std::int64_t parted = 0;  // contacts that were computed in vain, summed over the steps
     Vec3 drift{0, 0, 0};      // m, displacement of the free flight at the refresh
-    Pose pose;                // pose of the walls at the refresh
+    DrivePose pose;           // pose of the walls at the refresh
 };
 
 class ListLife {
@@ -67,7 +67,7 @@ class ListLife {
     double next_skin() const { return next_skin_; }
     void use_next_skin() { skin_ = next_skin_; }
     // Notes that neighbour lists have been made at `time` (steps) from the grains as they are.
-    void note_listing(const Grains& grains, const Pose& pose, double time);
+    void note_listing(const Grains& grains, const DrivePose& pose, double time);
     // Steps that the neighbour lists have lasted. Lists that expired because grains came count as having
     // lasted well.
     double lasted(double time) const;
@@ -88,11 +88,11 @@ class ListLife {
     bool contacts_expired(int thread, const Vec3& fastest, std::int64_t parted, std::int64_t grains,
                           const Evaluation& at, const Vec3& drift);
     // Sets the skin so that the contact lists last for some 48 steps at the present speeds.
-    void set_reach(int thread, const Pose& now, const Vec3& drift, const Vec3& frame, double step);
+    void set_reach(int thread, const DrivePose& now, const Vec3& drift, const Vec3& frame, double step);
     // Measures how far the grains [begin, end) have moved. Every thread does so for its own grains. After a
     // barrier, each thread may ask lists_expired() whether the neighbour lists must be made anew.
     void measure(int thread, const Grains& grains, std::int32_t begin, std::int32_t end, const Vec3& drift);
-    bool lists_expired(int thread, const Pose& now, const Vec3& drift) const;
+    bool lists_expired(int thread, const DrivePose& now, const Vec3& drift) const;
 
     // Leaves grains out. `index` holds the new index of each grain, below 0 for a grain that leaves.
     void leave_out(const std::vector<std::int32_t>& index);
@@ -125,7 +125,7 @@ class ListLife {
     // State of the grains and walls when the neighbour lists were made.
     std::vector<Eigen::Vector3f> listed_at_;  // m; floats to save memory, and their rounding is counted
     Vec3 listed_velocity_{0, 0, 0};
-    Pose listed_pose_;
+    DrivePose listed_pose_;
     double listed_step_ = 0;  // steps
 };
 

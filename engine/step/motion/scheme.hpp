@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/scene/scene.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
 #include "engine/step/motion/integrate.hpp"
 
 namespace grainreel {
@@ -67,10 +67,10 @@ inline Scheme scheme_of(Integrator integrator) {
 
 // The forces of one stage of a step.
 struct Evaluation {
-    double time;       // steps
-    double since;      // s, time since the last forces
-    double acts;       // s, time for which these forces will act
-    Pose before, now;  // poses of the walls, at the last forces and at these
+    double time;            // steps
+    double since;           // s, time since the last forces
+    double acts;            // s, time for which these forces will act
+    DrivePose before, now;  // poses of the walls, at the last forces and at these
 };
 
 // Goes through the evaluations of a run, from one stage of a step to the next.
@@ -78,7 +78,7 @@ class Evaluations {
   public:
     // Begins with the first stage of step `from`. `step` is in s. `first_step` is the first step after a
     // restart; nothing moved before it.
-    Evaluations(const Scheme& scheme, const WallMotion& motion, double step, std::int64_t from,
+    Evaluations(const Scheme& scheme, const DriveMotion& motion, double step, std::int64_t from,
                 std::int64_t first_step)
         : scheme_(scheme), motion_(motion), step_(step), step_number_(from), first_step_(first_step) {}
 
@@ -101,7 +101,7 @@ class Evaluations {
 
   private:
     const Scheme& scheme_;
-    const WallMotion& motion_;
+    const DriveMotion& motion_;
     double step_;
     std::int64_t step_number_;
     std::int64_t first_step_;

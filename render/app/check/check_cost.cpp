@@ -46,7 +46,8 @@ constexpr double much_faster = 3;
 void print_elsewhere(const Scene& scene, const Plan& plan, const CostEstimate& here, Listing& list) {
     const std::int64_t grains = scene.grains(), ranks = useful_ranks(grains);
     if (grains < fewest_to_hand_over) return;
-    const RunFrame frame = scene.drive.moves == Drive::Moves::floor ? RunFrame::lab : RunFrame::container;
+    const ReferenceFrame frame =
+        scene.drive.moves == Drive::Moves::floor ? ReferenceFrame::lab : ReferenceFrame::container;
     const int count = static_cast<int>(std::min<std::int64_t>(ranks, 1'000'000));
     double fastest = INFINITY;
     std::string name = "elsewhere";

@@ -158,7 +158,7 @@ std::string rough_text(const FilmedScene& scene) {
                        diameter_text(species.diameter), fmt::join(layer.faces, ", "));
 }
 
-std::string wall_text(const FreeWall& wall) {
+std::string wall_text(const ScenePlane& wall) {
     std::string text = fmt::format("{}: plane towards ({:.3g}, {:.3g}, {:.3g})", wall.name, wall.normal.x(),
                                    wall.normal.y(), wall.normal.z());
     if (wall.velocity.norm() > 0) text += fmt::format(", moving at {:.3g} m/s", wall.velocity.norm());
@@ -236,7 +236,7 @@ void print_setup(const FilmedScene& scene, const Plan& plan, Listing& list) {
     if (const auto& tray = scene.container.tray)
         list.line("", fmt::format("tray {} below the floor, width {}", metres_text(tray->depth),
                                   metres_text(2 * tray->half_width)));
-    for (const FreeWall& wall : scene.walls) list.line("", wall_text(wall));
+    for (const ScenePlane& wall : scene.walls) list.line("", wall_text(wall));
     print_meshes(scene, list);
     for (const ExitBox& box : scene.exits)
         list.line("exit", box_text(box.low, box.high) +

@@ -209,7 +209,7 @@ class ProbeFolder {
     fs::path path_;
 };
 
-void add_grain(Frame& frame, std::size_t species, double radius, const Vec3& position) {
+void add_grain(State& frame, std::size_t species, double radius, const Vec3& position) {
     frame.id.push_back(static_cast<std::int32_t>(frame.size()));
     frame.species.push_back(static_cast<std::int32_t>(species));
     frame.radius.push_back(radius);
@@ -233,7 +233,7 @@ std::vector<std::size_t> spread_species(const FilmedScene& scene) {
 
 // Moves the bed about as far as it moves between two frames in slow motion: all grains together, and each a
 // little by itself.
-ShotPtr shaken(const Frame& bed, int k, Random& random) {
+ShotPtr shaken(const State& bed, int k, Random& random) {
     Shot frame = bed;
     frame.step = k;
     frame.time = 0.01 * k;
@@ -252,7 +252,7 @@ struct FilmUse {
 };
 
 // Processor time of a film of `most` frames, or of fewer when they take long.
-FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const Frame& bed, int most,
+FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const State& bed, int most,
                     const HeldSignals& signals) {
     const ProbeFolder folder;
     FilmOptions options;
@@ -282,9 +282,9 @@ FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const F
 namespace {
 
 // Stacks grains in a box from the bottom upwards, as many as fit.
-Frame stacked_in(const FilmedScene& scene, const std::vector<std::size_t>& species, double pitch,
+State stacked_in(const FilmedScene& scene, const std::vector<std::size_t>& species, double pitch,
                  const Region& box) {
-    Frame frame;
+    State frame;
     for (double z = box.low.z() + pitch / 2; z < box.high.z(); z += pitch)
         for (double x = box.low.x() + pitch / 2; x < box.high.x(); x += pitch)
             for (double y = box.low.y() + pitch / 2; y < box.high.y(); y += pitch) {
@@ -297,8 +297,8 @@ Frame stacked_in(const FilmedScene& scene, const std::vector<std::size_t>& speci
 
 }  // namespace
 
-Frame stacked_bed(const FilmedScene& scene) {
-    Frame frame;
+State stacked_bed(const FilmedScene& scene) {
+    State frame;
     if (scene.start.method == Start::Method::grains) {
         for (const ListedGrain& grain : scene.start.grains)
             add_grain(frame, grain.species, grain.diameter / 2, grain.position);
@@ -331,7 +331,7 @@ std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& 
     if (scene.grains() > most_grains) return std::nullopt;
     const HeldSignals signals;  // signals wait until the film's folder is removed
     try {
-        const Frame bed = stacked_bed(scene);
+        const State bed = stacked_bed(scene);
         // The first film of the process loads libraries and fonts, so it is not counted.
         use_of_film(scene, threads, bed, 1, signals);
         // The time that a film takes before its frames is in both films, so it is not in their difference.

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "engine/frame.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
 #include "render/app/estimate/speed_cache.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_request.hpp"
@@ -69,6 +69,6 @@ constexpr double film_setup_seconds = 0.2;
 std::optional<FilmSpeed> probe_film(const FilmedScene& scene, const ThreadPlan& threads);
 
 // The scene's grains in a stack from the floor up, as loose as a shaken bed. Exposed for tests.
-Frame stacked_bed(const FilmedScene& scene);
+State stacked_bed(const FilmedScene& scene);
 
 }  // namespace grainreel

@@ -200,7 +200,7 @@ class Inspection {
             if (!asked.kept)
                 missing_.push_back(
                     fmt::format("{:.6g} s was not kept; this is the nearest kept moment", asked.time));
-            const Frame& moment = run.moments()[asked.nearest];
+            const State& moment = run.moments()[asked.nearest];
             return {std::move(*kept),
                     {moment.time, moment.step,
                      fmt::format("{}kept as number {} of {}", asked.kept ? last : "", asked.nearest + 1,
@@ -208,7 +208,7 @@ class Inspection {
         }
         Snapshot snapshot = takes(Needs::period) ? brought_back_with_ways(run, asked, watcher_of(reporter))
                                                  : brought_back_snapshot(run, asked, watcher_of(reporter));
-        const Frame& frame = snapshot.frame;
+        const State& frame = snapshot.frame;
         AnswerMoment about{frame.time, frame.step, fmt::format("{}brought back", last)};
         return {std::move(snapshot), std::move(about)};
     }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/questions/answer.hpp"
 #include "engine/questions/asked_moment.hpp"
 #include "engine/scene/keys/keys.hpp"

@@ -251,7 +251,7 @@ void close_results() {
         throw RunError(fmt::format("stdout: cannot be written: {}", std::strerror(first_error)));
 }
 
-int tell_folder(const FolderRun::Ended& ended, const FilmRequest& request) {
+int tell_folder(const FolderJob::Ended& ended, const FilmRequest& request) {
     if (ended.folder && request.to_stdout)
         std::fprintf(stderr, "%s\n", visible(ended.folder->string()).c_str());
     if (ended.folder && !request.to_stdout) print_exact(ended.folder->string() + "\n");

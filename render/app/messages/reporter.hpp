@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/run/folder/folder_run.hpp"
+#include "engine/run/folder/folder_job.hpp"
 #include "engine/run/folder/listener.hpp"
 #include "render/app/messages/stop_signal.hpp"
 #include "render/film/sources/film_request.hpp"
@@ -23,7 +23,7 @@ struct ReporterOptions {
 };
 
 // Writes all that goes to stderr.
-class Reporter final : public RunListener {
+class Reporter final : public Listener {
   public:
     explicit Reporter(const ReporterOptions& options);
     ~Reporter() override;
@@ -112,6 +112,6 @@ void open_missing_streams();
 void close_results();
 
 // Prints the run's folder on stdout, or on stderr if the film went to stdout. Returns the exit status.
-int tell_folder(const FolderRun::Ended& ended, const FilmRequest& request);
+int tell_folder(const FolderJob::Ended& ended, const FilmRequest& request);
 
 }  // namespace grainreel

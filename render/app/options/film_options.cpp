@@ -214,7 +214,7 @@ void keep_camera_file(const CameraFiles& files, const Camera& camera) {
         const char* frames[] = {"container", "bed", "reach"};
         text += fmt::format("azimuth = {}\nelevation = {}\nframe = \"{}\"\n", camera.azimuth,
                             camera.elevation, frames[static_cast<int>(camera.frame)]);
-        if (camera.frame == CameraFrame::reach && camera.reach)
+        if (camera.frame == FramingScope::reach && camera.reach)
             text += fmt::format("reach = {}\n", *camera.reach);
     }
     if (camera.target) text += fmt::format("target = {}\n", triple(*camera.target));

@@ -48,10 +48,10 @@ namespace {
 void refuse_other_files(const fs::path& path) {
     std::error_code ignored;
     if (!fs::exists(path, ignored) || fs::is_directory(path, ignored) || path.extension() == ".toml") return;
-    const FrameReader* const reader = reader_of(path);
+    const ReadFormat* const reader = reader_of(path);
     if (reader != nullptr)
         throw UserError(fmt::format("{}: is {}; give the folder of its run", path.string(), reader->about));
-    for (const FrameReader& known : frame_readers())
+    for (const ReadFormat& known : frame_readers())
         if (std::string_view(known.name) == "foreign")
             throw UserError(fmt::format(
                 "{}: is {}; give the folder of a run, or {}", path.string(),
@@ -77,7 +77,7 @@ RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Repor
     request.program_version = fmt::format("{} ({})", build_info::version, build_info::commit);
     const ShareWatcher watcher(reporter, Progress::Stage::reading);
     request.watcher = [&](double done) { return watcher(path.filename().string(), done); };
-    const ImportedRun run = cached_import(request);
+    const Imported run = cached_import(request);
     for (const std::string& line : run.news) reporter.info(line);
     return {run.folder, folder_around(path), true};
 }

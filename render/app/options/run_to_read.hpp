@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/options/cli.hpp"
 

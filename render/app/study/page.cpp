@@ -12,7 +12,7 @@
 namespace grainreel {
 namespace {
 
-using State = MemberResult::State;
+using Status = MemberResult::Status;
 
 constexpr std::size_t most_warnings = 20;  // warnings that the page lists
 
@@ -32,17 +32,17 @@ td.number { text-align: right; font-variant-numeric: tabular-nums; }
 li { overflow-wrap: anywhere; }
 )";
 
-std::size_t count_of(const std::vector<MemberResult>& results, State state) {
+std::size_t count_of(const std::vector<MemberResult>& results, Status status) {
     return static_cast<std::size_t>(std::count_if(results.begin(), results.end(),
-                                                  [&](const MemberResult& r) { return r.state == state; }));
+                                                  [&](const MemberResult& r) { return r.status == status; }));
 }
 
 std::string summary(const Study& study, const std::vector<MemberResult>& results) {
-    std::string text = fmt::format("{} of {} of {} complete", count_of(results, State::complete),
+    std::string text = fmt::format("{} of {} of {} complete", count_of(results, Status::complete),
                                    counted(results.size(), "member"), study.scene.filename().string());
-    if (const std::size_t failed = count_of(results, State::failed); failed > 0)
+    if (const std::size_t failed = count_of(results, Status::failed); failed > 0)
         text += fmt::format(", {} failed", failed);
-    const std::size_t left = count_of(results, State::missing) + count_of(results, State::incomplete);
+    const std::size_t left = count_of(results, Status::missing) + count_of(results, Status::incomplete);
     if (left > 0) text += fmt::format(", {} are not there yet", left);
     return text + ".";
 }
@@ -126,7 +126,7 @@ std::string failures(const Study& study, const std::vector<Member>& members,
                      const std::vector<MemberResult>& results) {
     std::string text;
     for (std::size_t m = 0; m < members.size(); ++m)
-        if (results[m].state == State::failed)
+        if (results[m].status == Status::failed)
             text += fmt::format("<li>{}: {}</li>\n", html_text(member_text(study, members[m])),
                                 html_text(results[m].error));
     return text.empty() ? "" : fmt::format("<h2>Failed</h2>\n<ul>\n{}</ul>\n", text);

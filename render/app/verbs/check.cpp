@@ -3,7 +3,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/app/messages/reporter.hpp"

@@ -9,7 +9,7 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"
 #include "render/app/verbs/verbs.hpp"
-#include "render/film/compare/compare_run.hpp"
+#include "render/film/compare/compare_job.hpp"
 
 namespace grainreel {
 namespace {
@@ -75,7 +75,7 @@ class Compare final : public Verb {
             throw UserError(option + ": is for files of other programs, and none is compared");
         use_camera_file(camera_, request_.sets);
         if (request_.at) request_.sets = sets_for_still(std::move(request_.sets));
-        CompareRun comparison(film_, reporter, read_comparison(request_, film_));
+        CompareJob comparison(film_, reporter, read_comparison(request_, film_));
         return tell_folder(comparison.run(), film_);
     }
 

@@ -8,8 +8,8 @@
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/foreign/raw_series.hpp"
-#include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
+#include "engine/files/frames/state_writer.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/options/cli.hpp"
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 std::string about_formats() {
     std::string text = "Formats:\n";
-    for (const FrameFormat& format : frame_formats())
+    for (const WriteFormat& format : frame_formats())
         text += fmt::format("  {:<14}{}\n", format.name, format.about);
     return text;
 }
@@ -45,7 +45,7 @@ class Export final : public Verb {
             ->required()
             ->type_name("PATH");
         std::vector<std::string> names;
-        for (const FrameFormat& format : frame_formats()) names.emplace_back(format.name);
+        for (const WriteFormat& format : frame_formats()) names.emplace_back(format.name);
         parser.add_option("--to", format_, "Format of the files; see below")
             ->required()
             ->type_name("FORMAT")
@@ -105,7 +105,7 @@ class Export final : public Verb {
     // there. Runs have theirs after a hyphen, so that "run-2.xyz" is of the run "run-2" alone.
     fs::path usual_name() const {
         std::string ending;
-        for (const FrameFormat& format : frame_formats())
+        for (const WriteFormat& format : frame_formats())
             if (format_ == format.name) ending = format.ending;
         fs::path base = fs::absolute(run_).lexically_normal();
         if (!base.has_filename()) base = base.parent_path();

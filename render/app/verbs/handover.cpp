@@ -23,7 +23,7 @@
 #include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
-#include "render/film/run/engine_run.hpp"
+#include "render/film/run/peer_job.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_request.hpp"
@@ -136,7 +136,7 @@ class Handover final : public Verb {
         for (const CarryNote& note : carried.changes)
             reporter.info(
                 fmt::format("{}{}{}: {}", note.where, note.where.empty() ? "" : ": ", note.what, note.why));
-        if (carried.frame == RunFrame::container)
+        if (carried.frame == ReferenceFrame::container)
             reporter.info(
                 "the deck and its dump are in the container's frame, where walls stand still and grains feel "
                 "minus its acceleration; what reads the folder here adds the motion again");
@@ -157,7 +157,7 @@ class Handover final : public Verb {
     Assignments sets_;
     std::string engine_, accepted_, law_;
     CarryRequest request_;
-    RunFolderRequest folder_;
+    FolderRequest folder_;
 };
 
 }  // namespace

@@ -23,8 +23,8 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/report.hpp"
 #include "render/app/verbs/verbs.hpp"
-#include "render/film/run/engine_run.hpp"
-#include "render/film/run/movie_run.hpp"
+#include "render/film/run/movie_job.hpp"
+#include "render/film/run/peer_job.hpp"
 #include "render/film/sources/film_needs.hpp"
 #include "render/page/live/server.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -167,7 +167,7 @@ class Movie final : public Verb {
         if (!engine_.empty()) return run_elsewhere(scene, plan, reporter);
         std::optional<Listening> listening;
         if (watched_) listening.emplace(listen_at(place_));
-        MovieRun movie(film_, reporter, scene, plan);
+        MovieJob movie(film_, reporter, scene, plan);
         std::optional<WatchChild> watch;
         if (listening) watch.emplace(movie.folder(), place_.host, std::move(*listening), report);
         return tell_folder(movie.run(), film_);
@@ -187,7 +187,7 @@ class Movie final : public Verb {
         CarriedScene carried = carry(scene, plan, carry_);
         throw_refusals(carried, [&](const std::string& line) { reporter.error(line); });
         if (film_.film || film_.frames) want_pictures(carried, scene);
-        EngineRun run(film_, reporter, scene, std::move(carried));
+        PeerJob run(film_, reporter, scene, std::move(carried));
         return tell_folder(run.run(), film_);
     }
 

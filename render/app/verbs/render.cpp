@@ -20,7 +20,7 @@
 #include "render/film/run/film_in_parts.hpp"
 #include "render/film/run/follow_job.hpp"
 #include "render/film/run/follow_run.hpp"
-#include "render/film/run/redraw_run.hpp"
+#include "render/film/run/redraw_job.hpp"
 #include "render/film/run/still.hpp"
 #include "render/film/sources/stored_shots.hpp"
 
@@ -121,7 +121,7 @@ class Render final : public Verb {
         source.check_all();
         keep_camera_file(camera_, source.scene().film.camera);
         if (slurm_ > 0) return tell_script(reporter, source);
-        RedrawRun redraw(film_, request_, reporter, source);
+        RedrawJob redraw(film_, request_, reporter, source);
         return tell_folder(redraw.run(), film_);
     }
 
@@ -172,7 +172,7 @@ class Render final : public Verb {
         if (!film_.out) throw UserError("--slurm: the film needs a name; add --out film.mp4");
         if (!film_.film) throw UserError("--slurm: joins films; leave out --no-film");
         request_.parts = PartsWanted{1, slurm_};
-        RedrawRun::check(film_, request_, reporter, source);
+        RedrawJob::check(film_, request_, reporter, source);
         if (source.scene().film.format == FilmFormat::png)
             throw UserError("--slurm: joins films, and format png has none; draw its parts by --part");
         check_joined(*film_.out, source.scene().film.format, film_.force);

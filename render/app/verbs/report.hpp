@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/run/folder/folder_run.hpp"
+#include "engine/run/folder/folder_job.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"

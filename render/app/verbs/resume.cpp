@@ -8,7 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
 #include "engine/files/folder_lock.hpp"
-#include "engine/files/former_run.hpp"
+#include "engine/files/former_files.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
@@ -27,9 +27,9 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/report.hpp"
 #include "render/app/verbs/verbs.hpp"
-#include "render/film/run/engine_run.hpp"
 #include "render/film/run/folder_film.hpp"
-#include "render/film/run/movie_run.hpp"
+#include "render/film/run/movie_job.hpp"
+#include "render/film/run/peer_job.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/film/sources/recorded_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -110,7 +110,7 @@ class Resume final : public Verb {
             reporter.info(
                 fmt::format("'{}' is {} from there on; it was {}", change.key, change.now, change.then));
         name_as_before(scene, folder);
-        MovieRun movie(film_, reporter, scene, plan, std::move(point), std::move(lock));
+        MovieJob movie(film_, reporter, scene, plan, std::move(point), std::move(lock));
         return tell_folder(movie.run(), film_);
     }
 
@@ -137,7 +137,7 @@ class Resume final : public Verb {
         std::error_code ignored;
         film_.frames = film_.film && fs::exists(folder / "frames", ignored);
         name_as_before(scene, folder);
-        EngineRun run(film_, reporter, scene, plan, std::move(lock));
+        PeerJob run(film_, reporter, scene, plan, std::move(lock));
         return tell_folder(run.run(), film_);
     }
 
@@ -150,8 +150,8 @@ class Resume final : public Verb {
     }
 
     static void put_back_former(const fs::path& folder, Reporter& reporter) {
-        if (!FormerRun::is_kept(folder)) return;
-        FormerRun::put_back(folder);
+        if (!FormerFiles::is_kept(folder)) return;
+        FormerFiles::put_back(folder);
         reporter.info(fmt::format(
             "{}: an earlier `resume` did not come past the run's former end; the run is as it was before it",
             folder.string()));
@@ -214,7 +214,8 @@ class Resume final : public Verb {
         add_caption_of_change(changed, time, words);
         const Plan changed_plan = plan_to_go_on(changed, folder);
         check_overlap_stays(scene, plan, changed_plan);
-        point.simulation = Simulation::at_checkpoint(changed, changed_plan, point.checkpoint, threads, true);
+        point.simulation =
+            SimulatedBed::at_checkpoint(changed, changed_plan, point.checkpoint, threads, true);
         for (const KeyDifference& one :
              deciding_differences(scene_to_keep(scene, plan), scene_to_keep(changed, changed_plan)))
             point.accepted.push_back({point.simulation.step(), one.key, one.then, one.now});

@@ -259,12 +259,12 @@ class StudyVerb final : public Verb {
     }
 
     int tell_end(const Study& study, Reporter& reporter) const {
-        const auto count = [&](MemberResult::State state) {
+        const auto count = [&](MemberResult::Status status) {
             return std::count_if(results_.begin(), results_.end(),
-                                 [&](const auto& r) { return r.state == state; });
+                                 [&](const auto& r) { return r.status == status; });
         };
-        const auto complete = count(MemberResult::State::complete),
-                   failed = count(MemberResult::State::failed);
+        const auto complete = count(MemberResult::Status::complete),
+                   failed = count(MemberResult::Status::failed);
         tell_gaps(study, reporter);
         reporter.info(fmt::format("{} of {} members are complete{}; wrote study.csv, charts/, index.html",
                                   complete, results_.size(),
@@ -281,7 +281,7 @@ class StudyVerb final : public Verb {
     void tell_gaps(const Study& study, Reporter& reporter) const {
         for (std::size_t i = 0; i < study.measures.size(); ++i) {
             const auto gaps = std::count_if(results_.begin(), results_.end(), [&](const MemberResult& r) {
-                return r.state == MemberResult::State::complete && std::isnan(r.values[i]);
+                return r.status == MemberResult::Status::complete && std::isnan(r.values[i]);
             });
             if (gaps > 0)
                 reporter.warning(fmt::format(
@@ -294,7 +294,7 @@ class StudyVerb final : public Verb {
 
     std::filesystem::path file_;
     std::optional<std::filesystem::path> out_;
-    StudyRunRequest request_;
+    StudyRequest request_;
     std::vector<std::string> variants_;       // names given with --variant; empty: all
     std::optional<double> shortest_packing_;  // s, shortest packing that the cache keeps
     PackingSharing sharing_;

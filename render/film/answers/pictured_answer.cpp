@@ -22,12 +22,12 @@ namespace grainreel {
 
 namespace {
 
-View view_of(const FilmedScene& scene, const Frame& shown, double film_time) {
+View view_of(const FilmedScene& scene, const State& shown, double film_time) {
     const View view = CameraPath(scene, plan_layout(scene)).at(film_time);
     return scene.film.camera.follow ? view.moved_by(way_of_container(scene, shown)) : view;
 }
 
-AlongRay along(const FilmedScene& scene, const Frame& shown) {
+AlongRay along(const FilmedScene& scene, const State& shown) {
     AlongRay along;
     for (const HalfSpace& half : kept_by_cut(scene.film.look.cut, shown))
         along.kept.push_back({half.normal, half.distance});
@@ -128,7 +128,7 @@ void draw_answer(const Snapshot& snapshot, const FilmedScene& filmed, const Answ
     shot.worn = snapshot.worn;
     shot.flowed_out = snapshot.flowed_out;
     if (scene.film.shows.force_chains)
-        std::erase_if(shot.touches, [&](const Touch& touch) {
+        std::erase_if(shot.touches, [&](const Link& touch) {
             return !is_among(marks.grains, touch.first) && !is_among(marks.grains, touch.second);
         });
     Renderer renderer(scene, drawing_threads(scene.run.threads).raster, provider);

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/frames/frame_archive.hpp"
-#include "engine/frame.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/questions/answer.hpp"
 #include "engine/questions/ray.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/state/contact.hpp"
+#include "engine/state/state.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/picture/marks/force_marks.hpp"
@@ -40,7 +40,7 @@ class PixelPicker {
   private:
     const Snapshot& snapshot_;
     const FilmedScene& scene_;
-    Frame shown_;
+    State shown_;
     View view_;
 };
 

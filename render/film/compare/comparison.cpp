@@ -144,7 +144,7 @@ std::optional<std::size_t> coarsest(const Comparison& all) {
     std::optional<std::size_t> found;
     double longest = 0;
     for (std::size_t i = 0; i < all.members.size(); ++i) {
-        const FrameArchive* archive = all.members[i]->archive();
+        const StateArchive* archive = all.members[i]->archive();
         if (!archive || (found && archive->mean_interval() <= longest)) continue;
         longest = archive->mean_interval();
         found = i;
@@ -221,17 +221,17 @@ void warn_of_schedule(Comparison& all) {
 void take_moments_of_record(Comparison& all) {
     all.by_schedule = false;
     all.reference = *coarsest(all);
-    const FrameArchive& run = *all.members[all.reference]->archive();
+    const StateArchive& run = *all.members[all.reference]->archive();
     const auto [from, to] = common_time(all);
     const double room = 1e-3 * run.mean_interval();
-    std::vector<Frame> moments;
-    for (const Frame& moment : run.moments())
+    std::vector<State> moments;
+    for (const State& moment : run.moments())
         if (moment.time >= from - room && moment.time <= to + room) moments.push_back(moment);
     if (moments.empty())
         throw UserError(fmt::format("{}: shares no time with the others, which show {:.6g} to {:.6g} s",
                                     run.path().string(), from, to));
     moments = alike(moments, common_periods(all));
-    for (const Frame& moment : moments) all.pictures.instants.push_back({moment.time, 0});
+    for (const State& moment : moments) all.pictures.instants.push_back({moment.time, 0});
     const Drive& drive = all.members[all.reference]->scene().drive;
     all.film.film.segments = {pacing_of(moments, drive, all.film.film.rate).value_or(FilmSegment())};
     all.pictures.segments = all.film.film.segments;

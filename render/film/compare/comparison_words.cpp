@@ -50,13 +50,13 @@ std::string size_with_plots(const std::vector<Panel>& panels, Film film) {
 // A segment's own words hold in a panel if the segments chose the moments, and if the segment is in motion or
 // the panel's drive has the frequency of the reference. Otherwise the words are found from the moments that
 // the panel shows.
-std::vector<std::string> playback_of(const FrameSource& source, const Comparison& all) {
+std::vector<std::string> playback_of(const ShotSource& source, const Comparison& all) {
     const std::vector<FilmSegment>& segments = all.pictures.segments;
     const Drive &drive = source.scene().drive, &reference = all.members[all.reference]->scene().drive;
-    const std::vector<Frame> moments = source.moments(all.pictures);
+    const std::vector<State> moments = source.moments(all.pictures);
     std::vector<std::string> captions;
     for (std::size_t k = 0; k < segments.size(); ++k) {
-        std::vector<Frame> inside;
+        std::vector<State> inside;
         for (std::size_t i = 0; i < moments.size(); ++i)
             if (all.pictures.instants[i].segment == static_cast<int>(k)) inside.push_back(moments[i]);
         const bool as_planned =

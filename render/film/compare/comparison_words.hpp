@@ -13,7 +13,7 @@ namespace grainreel {
 
 // What a panel says about time in each segment of the film. The comparison must have its members and
 // pictures.
-std::vector<std::string> playback_of(const FrameSource& source, const Comparison& all);
+std::vector<std::string> playback_of(const ShotSource& source, const Comparison& all);
 
 // What all panels say about time in one segment, as one line.
 std::string playback_of_all(const std::vector<Panel>& panels, std::size_t segment);

@@ -22,7 +22,7 @@ namespace grainreel {
 
 ComparedMember::ComparedMember(const FilmedScene& scene, const Plan& plan, int threads)
     : driver_(std::make_unique<RunDriver>(scene, plan, threads)),
-      source_(std::make_unique<SceneRun>(scene, *driver_)) {
+      source_(std::make_unique<LiveShots>(scene, *driver_)) {
     check_also(scene);
 }
 
@@ -30,7 +30,7 @@ std::string ComparedMember::place() const {
     return driver_ ? scene().name : std::filesystem::absolute(archive()->path()).string();
 }
 
-void ComparedMember::begin(const std::filesystem::path& folder, const RunRequest& request) {
+void ComparedMember::begin(const std::filesystem::path& folder, const JobRequest& request) {
     if (!driver_) return;
     const std::filesystem::path own = folder / place();
     std::error_code error;

@@ -12,9 +12,9 @@
 #include "engine/base/error.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/run_json.hpp"
-#include "engine/run/folder/folder_run.hpp"
-#include "render/film/sources/frame_source.hpp"
-#include "render/film/sources/scene_run.hpp"
+#include "engine/run/folder/folder_job.hpp"
+#include "render/film/sources/live_shots.hpp"
+#include "render/film/sources/shot_source.hpp"
 #include "render/film/sources/stored_shots.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -22,15 +22,15 @@ namespace grainreel {
 
 class ComparedMember {
   public:
-    using GoOn = FrameSource::GoOn;
+    using GoOn = ShotSource::GoOn;
 
     ComparedMember(const FilmedScene& scene, const Plan& plan, int threads);
     explicit ComparedMember(std::unique_ptr<StoredShots> record)
         : record_(record.get()), source_(std::move(record)) {}
 
-    const FrameSource& source() const { return *source_; }
+    const ShotSource& source() const { return *source_; }
     const FilmedScene& scene() const { return source_->scene(); }
-    const FrameArchive* archive() const { return source_->archive(); }  // null for a scene that is run
+    const StateArchive* archive() const { return source_->archive(); }  // null for a scene that is run
     const RunDriver* run() const { return driver_.get(); }              // null for a run on disk
     const StoredShots* record() const { return record_; }               // null for a scene that is run
     const Clock& clock() const { return driver_ ? driver_->plan().clock : record_->clock(); }
@@ -39,7 +39,7 @@ class ComparedMember {
 
     // begin(), pack(), start() and next() are called in this order. A scene that is run calls `go_on` now and
     // then and stops when that returns false; pack() then returns false, and next() null.
-    void begin(const std::filesystem::path& folder, const RunRequest& request);
+    void begin(const std::filesystem::path& folder, const JobRequest& request);
     bool pack(const GoOn& go_on);
     std::string found_packing_text() const { return driver_ ? driver_->found_packing_text() : ""; }
     void start(const Pictures& pictures);
@@ -62,7 +62,7 @@ class ComparedMember {
   private:
     std::unique_ptr<RunDriver> driver_;    // for a scene that is run: its driver
     const StoredShots* record_ = nullptr;  // for a run on disk: source_
-    std::unique_ptr<FrameSource> source_;
+    std::unique_ptr<ShotSource> source_;
     std::optional<FolderLock> folder_;  // lock of the run's folder, once that is made
     RunJson report_;                    // run.json of what is run
     std::atomic<double> done_ = 0, speed_ = 0;

@@ -57,7 +57,7 @@ struct Order {
     bool drawn = true;      // false: the shots are only remembered
 };
 struct Drawn {
-    DrawnFrame frame;
+    DrawnShot frame;
     std::int64_t more;
 };
 

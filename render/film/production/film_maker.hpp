@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/shot.hpp"
 #include "render/picture/gl/provider.hpp"
@@ -40,7 +40,7 @@ struct FilmOptions {
     bool take_turns = false;
     gl::Provider gl = gl::Provider::automatic;
     // The frame that decides the grains' heights at the start; null: the first picture's frame.
-    FramePtr start;
+    StatePtr start;
     std::int64_t pictures = 0;  // planned number for the whole film; a camera's orbit may last as long as it
     FilmExtent extent;
     // Called before a file is made or replaced in the folder; throws RunError when that is not allowed.

@@ -37,7 +37,7 @@ std::string flash_remedy(const Film& film) {
 
 }  // namespace
 
-std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
+std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const State& frame,
                               const std::string& playback) {
     return {{"Title", title},
             {"Scene", scene},
@@ -101,7 +101,7 @@ void PictureFiles::with_copy(const std::function<void(PageCopy&)>& act) {
     }
 }
 
-Picture PictureFiles::add(DrawnFrame drawn) {
+Picture PictureFiles::add(DrawnShot drawn) {
     if (count_ == 0 && is_first_) first_time_ = drawn.frame->time;
     if (frames_wanted_) write(folder_ / "frames" / fmt::format("{:06}.png", first_frame_ + frames()), drawn);
     if (film_ && next_group_ < groups_.size() && groups_[next_group_] == frames()) {
@@ -118,7 +118,7 @@ Picture PictureFiles::add(DrawnFrame drawn) {
     return std::move(drawn.picture);
 }
 
-void PictureFiles::consider_poster(const DrawnFrame& drawn) {
+void PictureFiles::consider_poster(const DrawnShot& drawn) {
     if (last_.frame && drawn.frame->time - first_time_ > poster_time_) {
         close_poster();
     } else if (poster_in_passing(count_)) {
@@ -142,7 +142,7 @@ void PictureFiles::close_poster() {
     write_poster(last_);
 }
 
-void PictureFiles::write_poster(const DrawnFrame& drawn) {
+void PictureFiles::write_poster(const DrawnShot& drawn) {
     write(folder_ / "poster.png", drawn);
     poster_written_ = true;
 }
@@ -164,7 +164,7 @@ void PictureFiles::leave() {
     copy_.reset();
 }
 
-void PictureFiles::write(const std::filesystem::path& path, const DrawnFrame& drawn) const {
+void PictureFiles::write(const std::filesystem::path& path, const DrawnShot& drawn) const {
     check_folder_();
     write_png(path, drawn.picture, texts_of(name_, title_, *drawn.frame, drawn.playback), transparent_);
 }

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 #include "render/film/codec/encoder.hpp"
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_writer.hpp"
@@ -67,14 +67,14 @@ class PageCopy {
     std::optional<Encoder> encoder_;
 };
 
-struct DrawnFrame {
+struct DrawnShot {
     Picture picture;
-    FramePtr frame;
+    StatePtr frame;
     std::string playback;
 };
 
 // The texts that a PNG file holds about its picture.
-std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const Frame& frame,
+std::vector<PngText> texts_of(const std::string& scene, const std::string& title, const State& frame,
                               const std::string& playback);
 
 class PictureFiles {
@@ -83,7 +83,7 @@ class PictureFiles {
     PictureFiles(const FilmedScene& scene, const FilmOptions& options);
 
     // Takes the next picture and gives a picture back whose buffer may be drawn over. Throws RunError.
-    Picture add(DrawnFrame drawn);
+    Picture add(DrawnShot drawn);
 
     // Writes the poster if that was not done yet. Throws RunError.
     void close_poster();
@@ -105,9 +105,9 @@ class PictureFiles {
     void open_copy(const FilmedScene& scene, const FilmOptions& options);
     // Does something with the copy. When that fails the copy is removed, and the film goes on.
     void with_copy(const std::function<void(PageCopy&)>& act);
-    void consider_poster(const DrawnFrame& drawn);
-    void write(const std::filesystem::path& path, const DrawnFrame& drawn) const;
-    void write_poster(const DrawnFrame& drawn);
+    void consider_poster(const DrawnShot& drawn);
+    void write(const std::filesystem::path& path, const DrawnShot& drawn) const;
+    void write_poster(const DrawnShot& drawn);
 
     std::filesystem::path folder_;
     std::function<void()> check_folder_;
@@ -124,7 +124,7 @@ class PictureFiles {
     FlashWatch flashes_;
     std::string flash_remedy_;
     // The last picture. It becomes the poster when the next picture comes after the poster's time.
-    DrawnFrame last_;
+    DrawnShot last_;
     std::unique_ptr<FilmWriter> film_;
     std::unique_ptr<PageCopy> copy_;
     std::string film_file_, left_file_, left_encoder_;

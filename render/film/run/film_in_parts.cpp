@@ -65,7 +65,7 @@ class Digest {
     std::uint64_t sum_ = 0;
 };
 
-void add_grains(Digest& digest, const Frame& frame) {
+void add_grains(Digest& digest, const State& frame) {
     digest.add(frame.id);
     digest.add(frame.species);
     std::vector<double> numbers;
@@ -138,10 +138,10 @@ DrawnPart FilmInParts::record() const {
     return record;
 }
 
-std::string checksum_of_run(const FrameArchive& frames, const std::string& scene) {
+std::string checksum_of_run(const StateArchive& frames, const std::string& scene) {
     Digest digest;
     digest.add(scene);
-    for (const Frame& moment : frames.moments())
+    for (const State& moment : frames.moments())
         digest.add(std::vector<double>{static_cast<double>(moment.step), moment.time});
     add_grains(digest, frames.first_whole());
     try {
@@ -251,7 +251,7 @@ void check_alike(const Part& part, const Part& first) {
     if (a.all_frames != b.all_frames) differs("is of a film with another number of pictures than");
 }
 
-void check_together(const std::vector<Part>& parts, RunListener& listener) {
+void check_together(const std::vector<Part>& parts, Listener& listener) {
     std::int64_t frames = 0;
     for (const Part& part : parts) {
         check_alike(part, parts.front());
@@ -314,7 +314,7 @@ void check_joined(const fs::path& out, FilmFormat film, bool force) {
             fmt::format("{}: exists already; choose another name, or --force to replace it", option));
 }
 
-bool join_parts(const JoinRequest& request, RunListener& listener) {
+bool join_parts(const JoinRequest& request, Listener& listener) {
     std::vector<Part> parts;
     for (const fs::path& folder : request.parts) parts.push_back(read_part(folder));
     if (parts.empty()) throw UserError("no part is given; give the folders that render --part has made");

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/folder/listener.hpp"
 #include "render/film/production/film_maker.hpp"
@@ -54,7 +54,7 @@ class FilmInParts {
 
 // A checksum that is the same for parts of the same run: of scene.toml, the moments, and the grains of the
 // first and the last moment that the run kept.
-std::string checksum_of_run(const FrameArchive& frames, const std::string& scene);
+std::string checksum_of_run(const StateArchive& frames, const std::string& scene);
 // A checksum that is the same for parts of the same film: of the scene as it is drawn, and of the moments and
 // their words.
 std::string checksum_of_settings(const FilmedScene& scene, const std::vector<Due>& shots,
@@ -70,7 +70,7 @@ struct JoinRequest {
 // false when asked to stop. Throws UserError when parts are missing, doubled, of another run, drawn or
 // encoded otherwise, incomplete or damaged, and RunError when the film cannot be written. In all these cases
 // no new file gets the film's name.
-bool join_parts(const JoinRequest& request, RunListener& listener);
+bool join_parts(const JoinRequest& request, Listener& listener);
 
 // Checks that parts in that format can be joined to the file `film`. Throws UserError when the file exists
 // and may not be replaced, or has another ending.

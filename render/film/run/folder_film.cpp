@@ -34,7 +34,7 @@ void FolderFilm::make_frames_place(const FilmedScene& scene) const {
     make_frames_folder(desk_.folder->path());
 }
 
-void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, FramePtr start, DrawerMaker draw) {
+void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, StatePtr start, DrawerMaker draw) {
     if (!wanted()) return;
     desk_.folder->lock()
         .check_there();  // otherwise the film might begin in another folder that has its name now

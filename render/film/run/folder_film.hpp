@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/run/folder/folder_run.hpp"
+#include "engine/run/folder/folder_job.hpp"
 #include "engine/run/folder/listener.hpp"
 #include "engine/run/resume/resume_point.hpp"
+#include "engine/state/state.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sources/film_request.hpp"
-#include "render/film/sources/frame_source.hpp"
+#include "render/film/sources/shot_source.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -25,7 +25,7 @@ namespace grainreel {
 class FolderFilm final : public SideWork {
   public:
     // The desk must outlive the film.
-    FolderFilm(FilmRequest request, RunDesk& desk) : request_(std::move(request)), desk_(desk) {}
+    FolderFilm(FilmRequest request, JobDesk& desk) : request_(std::move(request)), desk_(desk) {}
 
     const FilmRequest& request() const { return request_; }
     // Whether any pictures are asked for.
@@ -46,7 +46,7 @@ class FolderFilm final : public SideWork {
     // Opens the film; does nothing where no pictures are wanted. pictures: number of the whole film's
     // pictures. start: frame from which start heights are counted; null: the film's first picture. draw:
     // makes the drawer; empty for the Renderer.
-    void open(const FilmedScene& scene, std::int64_t pictures, FramePtr start = nullptr,
+    void open(const FilmedScene& scene, std::int64_t pictures, StatePtr start = nullptr,
               DrawerMaker draw = {});
     // The film maker, which takes pictures while the film is open.
     FilmMaker& maker() { return *film_; }
@@ -72,7 +72,7 @@ class FolderFilm final : public SideWork {
 
   private:
     const FilmRequest request_;
-    RunDesk& desk_;
+    JobDesk& desk_;
     ThreadPlan threads_;
     std::unique_ptr<FilmMaker> film_;
     std::int64_t frames_planned_ = 0;  // frames of the film, with those that are held for captions
@@ -87,10 +87,10 @@ class FolderFilm final : public SideWork {
 };
 
 // A run that fills a folder with a film whose frames it does not compute itself.
-class FilmRun : public FolderRun {
+class FilmJob : public FolderJob {
   protected:
-    FilmRun(const FilmRequest& request, RunListener& listener)
-        : FolderRun(request, listener), film_(request, desk_) {}
+    FilmJob(const FilmRequest& request, Listener& listener)
+        : FolderJob(request, listener), film_(request, desk_) {}
 
     SideWork* side_work() override { return &film_; }
 

@@ -12,7 +12,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/handover/engine_job.hpp"
+#include "engine/handover/peer_process.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sampling/timeline.hpp"
@@ -42,8 +42,8 @@ void check_options(const FilmRequest& request) {
 
 }  // namespace
 
-FollowJob::FollowJob(const FilmRequest& request, const FollowRequest& what, RunListener& listener)
-    : FilmRun(request, listener),
+FollowJob::FollowJob(const FilmRequest& request, const FollowRequest& what, Listener& listener)
+    : FilmJob(request, listener),
       what_(what),
       facts_((check_options(request), read_handover(what.from))),
       scene_(scene_of_run(what.from, what.sets)),

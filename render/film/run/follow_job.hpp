@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/handover/bring_back.hpp"
-#include "engine/handover/engine_job.hpp"
+#include "engine/handover/peer_process.hpp"
 #include "engine/plan/plan.hpp"
 #include "render/film/run/folder_film.hpp"
 #include "render/film/run/follow_run.hpp"
@@ -18,11 +18,11 @@
 
 namespace grainreel {
 
-class FollowJob final : public FilmRun {
+class FollowJob final : public FilmJob {
   public:
     // what.from: folder of the hand-over. Waits for the first moment, as long as `idle` allows. Throws
     // UserError, before anything is written, when none comes and when files or options are wrong.
-    FollowJob(const FilmRequest& request, const FollowRequest& what, RunListener& listener);
+    FollowJob(const FilmRequest& request, const FollowRequest& what, Listener& listener);
     const FilmedScene& scene() const { return scene_; }
 
   private:

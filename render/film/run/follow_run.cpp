@@ -24,7 +24,7 @@ double seconds_since(Steady::time_point begin) {
 }
 
 // Sleeps in short naps, so that Ctrl-C is noticed.
-void nap(double seconds, const RunListener& listener) {
+void nap(double seconds, const Listener& listener) {
     const Steady::time_point begin = Steady::now();
     while (seconds_since(begin) < seconds && listener.stop_signal() == 0)
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -38,7 +38,7 @@ std::unique_ptr<ForeignArchive> opened(const FollowRequest& what) {
     return frames->moments().empty() ? nullptr : std::move(frames);
 }
 
-std::unique_ptr<ForeignArchive> first_frames(const FollowRequest& what, RunListener& listener) {
+std::unique_ptr<ForeignArchive> first_frames(const FollowRequest& what, Listener& listener) {
     const Steady::time_point begin = Steady::now();
     std::string why = what.from.string() + ": is not there, or holds no frame yet";
     while (seconds_since(begin) < what.idle && listener.stop_signal() == 0) {
@@ -82,8 +82,8 @@ void check_options(const FollowRequest& what, const FilmRequest& request) {
 
 }  // namespace
 
-FollowRun::FollowRun(const FilmRequest& request, const FollowRequest& what, RunListener& listener)
-    : FilmRun(request, listener),
+FollowRun::FollowRun(const FilmRequest& request, const FollowRequest& what, Listener& listener)
+    : FilmJob(request, listener),
       what_(what),
       frames_((check_options(what, request), first_frames(what, listener))),
       scene_(scene_of(what, request)) {
@@ -105,7 +105,7 @@ bool FollowRun::draw_new(bool at_end) {
         desk_.folder->lock().check_there();
         Shot shot = frames_->grains(drawn_);
         if (needs_touches(scene_.film.shows))
-            shot.touches = frames_->touches(drawn_).value_or(std::vector<Touch>());
+            shot.touches = frames_->touches(drawn_).value_or(std::vector<Link>());
         film_.maker().take(std::make_shared<const Shot>(std::move(shot)), "");
         show_progress();
     }
@@ -151,7 +151,7 @@ bool FollowRun::work() {
         fmt::format("{}: {} so far; the film ends {:.3g} s after the last one, or with Ctrl-C",
                     what_.from.string(), counted(frames_->moments().size(), "frame"), what_.idle));
     film_.open(scene_, static_cast<std::int64_t>(frames_->moments().size()),
-               std::make_shared<const Frame>(frames_->first_whole()));
+               std::make_shared<const State>(frames_->first_whole()));
     Steady::time_point last = Steady::now();
     while (true) {
         const std::size_t before = drawn_;

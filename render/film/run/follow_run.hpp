@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/film/run/folder_film.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -22,11 +22,11 @@ struct FollowRequest {
     double idle = 60;              // s without a new frame, after which the film ends
 };
 
-class FollowRun final : public FilmRun {
+class FollowRun final : public FilmJob {
   public:
     // Waits for the first frame, as long as `idle` allows. Throws UserError, before anything is written, when
     // no frame comes and when files or options are wrong.
-    FollowRun(const FilmRequest& request, const FollowRequest& what, RunListener& listener);
+    FollowRun(const FilmRequest& request, const FollowRequest& what, Listener& listener);
 
   private:
     bool work() override;

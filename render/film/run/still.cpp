@@ -83,7 +83,7 @@ Chosen choose(const RenderRequest& what, const StoredShots& source) {
     return chosen;
 }
 
-ReplayWatcher watcher_of(RunListener& listener) {
+ReplayWatcher watcher_of(Listener& listener) {
     return replay_progress([&listener](const Progress& progress) { listener.progress(progress); });
 }
 
@@ -102,16 +102,16 @@ std::vector<std::int64_t> before(std::int64_t step, double duration, const Store
 // Gives the renderer what the picture shows of the film before it: where grains were at first, and trails.
 // Returns false when told to stop.
 bool remember_what_was(Renderer& renderer, std::int64_t step, StoredShots& source,
-                       const FrameSource::GoOn& go_on) {
+                       const ShotSource::GoOn& go_on) {
     const std::vector<Due> film = source.film().shots();
-    const FramePtr start = film.empty() ? std::make_shared<const Frame>(source.run().first_whole())
+    const StatePtr start = film.empty() ? std::make_shared<const State>(source.run().first_whole())
                                         : source.grains(source.shown(film.front().step), go_on);
     if (!start) return false;
     renderer.start_from(*start);
     const FilmTrails& trails = source.scene().film.shows.trails;
     if (!trails.wanted()) return true;
     for (const std::int64_t earlier : before(step, trails.duration, source)) {
-        const FramePtr frame = source.grains(earlier, go_on);
+        const StatePtr frame = source.grains(earlier, go_on);
         if (!frame) return false;
         renderer.remember(*frame);
     }
@@ -134,8 +134,8 @@ void check_still(const FilmRequest& request, const RenderRequest& what) {
     if (request.out) check_png(*request.out, request.force);
 }
 
-std::optional<fs::path> draw_still(const FilmRequest& request, const RenderRequest& what,
-                                   RunListener& listener, StoredShots& source) {
+std::optional<fs::path> draw_still(const FilmRequest& request, const RenderRequest& what, Listener& listener,
+                                   StoredShots& source) {
     check_still(request, what);
     const Chosen chosen = choose(what, source);
     for (const std::string& line : source.news()) listener.warning(line);

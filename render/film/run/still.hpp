@@ -16,7 +16,7 @@ namespace grainreel {
 // asked to stop. Throws UserError, with nothing written, when the run has no such moment, or when the file
 // exists and may not be replaced, or cannot be written.
 std::optional<std::filesystem::path> draw_still(const FilmRequest& request, const RenderRequest& what,
-                                                RunListener& listener, StoredShots& source);
+                                                Listener& listener, StoredShots& source);
 
 // Throws UserError where --out names no PNG file, or one that exists and may not be replaced.
 void check_still(const FilmRequest& request, const RenderRequest& what);

@@ -43,7 +43,7 @@ std::int64_t poster_picture(const Film& film, double duration, const std::vector
     return picture;
 }
 
-void FilmTimesTable::add(const Frame& picture, std::int64_t frames) {
+void FilmTimesTable::add(const State& picture, std::int64_t frames) {
     rows_.insert(rows_.end(), static_cast<std::size_t>(frames), {picture.step, picture.time});
 }
 

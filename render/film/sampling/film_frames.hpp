@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -77,7 +77,7 @@ inline constexpr const char* kFilmTimes = "film_times.csv";
 class FilmTimesTable {
   public:
     // Adds the next picture, which the film shows in so many frames.
-    void add(const Frame& picture, std::int64_t frames);
+    void add(const State& picture, std::int64_t frames);
     // Writes the rows of the film's first `frames` frames. Throws RunError.
     void write(const std::filesystem::path& path, std::int64_t frames) const;
 

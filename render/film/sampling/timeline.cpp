@@ -74,11 +74,11 @@ namespace {
 // of a period.
 constexpr double hair = 1e-9;
 
-double mean_interval(const std::vector<Frame>& moments) {
+double mean_interval(const std::vector<State>& moments) {
     return (moments.back().time - moments.front().time) / static_cast<double>(moments.size() - 1);
 }
 
-bool even(const std::vector<Frame>& moments) {
+bool even(const std::vector<State>& moments) {
     const double interval = mean_interval(moments);
     for (std::size_t i = 1; i < moments.size(); ++i)
         if (std::abs(moments[i].time - moments[i - 1].time - interval) > 1e-3 * interval) return false;
@@ -91,27 +91,27 @@ double turn_between(double a, double b) {
     return std::abs(turns - std::round(turns));
 }
 
-double half_a_step(const std::vector<Frame>& moments) {
+double half_a_step(const std::vector<State>& moments) {
     const auto steps = static_cast<double>(moments.back().step - moments.front().step);
     return steps > 0 ? 0.5 * (moments.back().time - moments.front().time) / steps : 0;
 }
 
 // Whether all moments are at one phase. Frames lie on steps, but a phase of a drive that changes may lie
 // between two steps.
-bool same_phase(const std::vector<Frame>& moments, const Drive& drive) {
+bool same_phase(const std::vector<State>& moments, const Drive& drive) {
     const double between_steps =
         drive.changes() ? 2.01 * half_a_step(moments) * drive.highest_frequency() : 0;
-    return std::all_of(moments.begin(), moments.end(), [&](const Frame& moment) {
+    return std::all_of(moments.begin(), moments.end(), [&](const State& moment) {
         return turn_between(moment.phase, moments.front().phase) < hair + between_steps;
     });
 }
 
-double mean_periods(const std::vector<Frame>& moments) {
+double mean_periods(const std::vector<State>& moments) {
     return (moments.back().cycles - moments.front().cycles) / static_cast<double>(moments.size() - 1);
 }
 
 // Whether the frames come one every so many periods. The periods may differ in length.
-bool even_in_periods(const std::vector<Frame>& moments) {
+bool even_in_periods(const std::vector<State>& moments) {
     const double periods = mean_periods(moments);
     for (std::size_t i = 1; i < moments.size(); ++i)
         if (std::abs(moments[i].cycles - moments[i - 1].cycles - periods) > 0.1) return false;
@@ -131,7 +131,7 @@ double plain_factor(double playback, double tolerance) {
 
 }  // namespace
 
-std::optional<FilmSegment> pacing_of(const std::vector<Frame>& moments, const Drive& drive, double rate) {
+std::optional<FilmSegment> pacing_of(const std::vector<State>& moments, const Drive& drive, double rate) {
     if (moments.size() < 2) return std::nullopt;
     const bool locked = drive.present && same_phase(moments, drive) &&
                         (drive.changes() ? even_in_periods(moments) : even(moments));
@@ -151,7 +151,7 @@ std::optional<FilmSegment> pacing_of(const std::vector<Frame>& moments, const Dr
     return segment;
 }
 
-std::string pacing_caption(const std::vector<Frame>& moments, const Drive& drive, double rate) {
+std::string pacing_caption(const std::vector<State>& moments, const Drive& drive, double rate) {
     if (moments.size() < 2) return {};
     if (const auto segment = pacing_of(moments, drive, rate)) return playback_caption(*segment, drive, rate);
     const double interval = mean_interval(moments);
@@ -166,7 +166,7 @@ std::string pacing_caption(const std::vector<Frame>& moments, const Drive& drive
     return "on average " + playback_caption(segment, drive, rate);
 }
 
-std::optional<std::string> pacing_warning(const std::vector<Frame>& moments, const Drive& drive) {
+std::optional<std::string> pacing_warning(const std::vector<State>& moments, const Drive& drive) {
     if (moments.size() < 2 || !drive.present || same_phase(moments, drive)) return std::nullopt;
     const double frames = 1 / mean_interval(moments),
                  f = drive.highest_frequency();  // both for each simulated second: frames, periods

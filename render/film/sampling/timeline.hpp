@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -37,14 +37,14 @@ std::vector<Due> shots_at(const std::vector<Instant>& instants, const std::vecto
 // periods lie between the frames; otherwise it is in motion, at the playback that follows from their
 // interval. Its duration is the simulated time from the first frame to the last. Returns none for fewer than
 // two frames, or if they do not come evenly. Only time, cycles and phase of the frames are used.
-std::optional<FilmSegment> pacing_of(const std::vector<Frame>& moments, const Drive& drive, double rate);
+std::optional<FilmSegment> pacing_of(const std::vector<State>& moments, const Drive& drive, double rate);
 
 // What the caption says about the pace of these frames; if they do not come evenly, it gives the mean. Empty
 // for fewer than two frames.
-std::string pacing_caption(const std::vector<Frame>& moments, const Drive& drive, double rate);
+std::string pacing_caption(const std::vector<State>& moments, const Drive& drive, double rate);
 
 // A warning for frames that are too few for the drive, which then seems to move at another frequency. None if
 // there are enough frames, or if all are at one phase.
-std::optional<std::string> pacing_warning(const std::vector<Frame>& moments, const Drive& drive);
+std::optional<std::string> pacing_warning(const std::vector<State>& moments, const Drive& drive);
 
 }  // namespace grainreel

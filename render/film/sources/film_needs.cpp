@@ -47,7 +47,7 @@ void check_orientations(const FilmedScene& scene, const StoredRun& run) {
 // Frames the picture by how high the grains got: for a finished run this need not be estimated.
 void frame_what_is_reached(FilmedScene& scene, const StoredRun& run) {
     Camera& camera = scene.film.camera;
-    if (camera.frame == CameraFrame::reach && !camera.reach && !camera.position)
+    if (camera.frame == FramingScope::reach && !camera.reach && !camera.position)
         camera.reach = known_reach(run);
 }
 
@@ -127,7 +127,7 @@ void fit_range_of_import(FilmedScene& scene, const StoredRun& run) {
     const bool by_pressure = walls.colour == FilmWalls::Colour::pressure;
     double most = 0;
     bool any = false;
-    for (const Frame& moment : run.moments())
+    for (const State& moment : run.moments())
         for (const MeshWear& mesh : *run.worn(moment.time))
             for (const double value : by_pressure ? mesh.pressure : mesh.wear) {
                 if (std::isnan(value)) continue;
@@ -169,11 +169,11 @@ void look_at_wear(FilmedScene& scene, const StoredRun& run) {
 
 // A line where kept frames have no other frame a period before them.
 void look_for_earlier_frames(const StoredRun& run, Lines& lines) {
-    const std::vector<Frame>& moments = run.moments();
+    const std::vector<State>& moments = run.moments();
     const Clock& clock = run.clock();
     const double first = moments.front().cycles + run.periods() - 1e-3;
     std::size_t lack = 0;
-    for (const Frame& moment : moments)
+    for (const State& moment : moments)
         lack += moment.cycles >= first &&
                 !run.index_near(clock.time(clock.step_at(moment.cycles - run.periods())));
     if (lack > 0)

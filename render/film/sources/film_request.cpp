@@ -6,7 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -50,7 +50,7 @@ ThreadPlan drawing_threads(int wanted) {
     return {0, raster, std::max(1, processors - raster)};
 }
 
-void check_times(const RenderRequest& what, const FrameArchive& run, double last) {
+void check_times(const RenderRequest& what, const StateArchive& run, double last) {
     if (what.from) run.check_time("--from", *what.from, last, run.usual_slack(*what.from));
     if (what.to) run.check_time("--to", *what.to, last, run.usual_slack(*what.to));
     if (what.from && what.to && *what.from > *what.to)
@@ -58,9 +58,9 @@ void check_times(const RenderRequest& what, const FrameArchive& run, double last
                                     *what.from, *what.to));
 }
 
-std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive& run) {
-    const std::vector<Frame>& moments = run.moments();
-    std::vector<Frame> chosen;
+std::vector<State> chosen_moments(const RenderRequest& what, const StateArchive& run) {
+    const std::vector<State>& moments = run.moments();
+    std::vector<State> chosen;
     for (const std::size_t k : run.between(what.from, what.to, what.every.value_or(1)))
         chosen.push_back(moments[k]);
     if (chosen.empty())
@@ -70,10 +70,10 @@ std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive&
     return alike(chosen, run.periods());
 }
 
-std::vector<Frame> alike(const std::vector<Frame>& moments, int periods) {
+std::vector<State> alike(const std::vector<State>& moments, int periods) {
     constexpr double room = 1e-6;  // tolerance, in periods
-    std::vector<Frame> kept;
-    for (const Frame& moment : moments) {
+    std::vector<State> kept;
+    for (const State& moment : moments) {
         const double behind = moment.cycles - moments.front().cycles;
         if (std::abs(behind - std::round(behind)) > room) return moments;
         if (std::llround(behind) % periods == 0) kept.push_back(moment);
@@ -98,7 +98,7 @@ std::vector<FilmSegment> of_single_moments(std::vector<FilmSegment> segments) {
     return segments;
 }
 
-std::optional<std::string> periods_warning(const FilmedScene& scene, const FrameArchive& run) {
+std::optional<std::string> periods_warning(const FilmedScene& scene, const StateArchive& run) {
     if (run.periods() == 1 || scene.film.periods > 0) return std::nullopt;
     return fmt::format(
         "the bed repeats itself only every {0} periods of the drive: frames at one phase and "

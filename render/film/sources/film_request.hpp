@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/run/folder/folder_run.hpp"
+#include "engine/run/folder/folder_job.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "render/film/sources/frame_source.hpp"
+#include "render/film/sources/shot_source.hpp"
 #include "render/picture/gl/provider.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -31,7 +31,7 @@ double dots_an_inch(const PrintSize& print);
 // UserError when a side would be too small or too large.
 void fit_to_paper(Film& film, const PrintSize& print);
 
-struct FilmRequest : RunRequest {
+struct FilmRequest : JobRequest {
     bool film = true;
     bool frames = false;
     bool to_stdout = false;  // the film goes to stdout; the folder's name then goes to stderr
@@ -88,16 +88,16 @@ ThreadPlan drawing_threads(int wanted);
 
 // Throws UserError when `from` or `to` lies outside the run, which ends at `last` (s), or `from` after `to`.
 // A time may be as far outside as kept moments are apart.
-void check_times(const RenderRequest& what, const FrameArchive& run, double last);
+void check_times(const RenderRequest& what, const StateArchive& run, double last);
 
 // The moments of a saved run that are drawn: those from `from` to `to`, or one in `every` of them. If they
 // are all at one phase of the drive, only those stay at which the bed looks alike. Throws UserError when
 // there is none.
-std::vector<Frame> chosen_moments(const RenderRequest& what, const FrameArchive& run);
+std::vector<State> chosen_moments(const RenderRequest& what, const StateArchive& run);
 
 // For moments at one phase of the drive: those that lie whole multiples of `periods` after the first one. A
 // bed that repeats itself after `periods` looks alike there. Moments that are not at one phase all stay.
-std::vector<Frame> alike(const std::vector<Frame>& moments, int periods);
+std::vector<State> alike(const std::vector<State>& moments, int periods);
 
 // A warning for each segment of the scene's film whose pictures should show more than one moment but cannot.
 std::vector<std::string> single_moment_warnings(const FilmedScene& scene, const std::string& why);
@@ -107,6 +107,6 @@ std::vector<FilmSegment> of_single_moments(std::vector<FilmSegment> segments);
 
 // A note about a run whose bed repeats itself only every so many periods, when the scene does not set that
 // number.
-std::optional<std::string> periods_warning(const FilmedScene& scene, const FrameArchive& run);
+std::optional<std::string> periods_warning(const FilmedScene& scene, const StateArchive& run);
 
 }  // namespace grainreel

@@ -34,9 +34,9 @@ int FilmSchedule::periods_at(std::int64_t step) const {
     return fixed ? run_.periods() : measured_.at(step);
 }
 
-Frame FilmSchedule::moment(std::int64_t step) const {
+State FilmSchedule::moment(std::int64_t step) const {
     const Clock& clock = run_.clock();
-    Frame moment;
+    State moment;
     moment.step = step;
     moment.time = clock.step > 0 ? clock.time(step) : run_.to();
     moment.cycles = clock.cycles(step);
@@ -61,7 +61,7 @@ std::vector<Due> FilmSchedule::with_bed(const std::vector<Due>& shots) const {
     FilmedScene scene = scene_;
     if (!same_) scene.film.periods = run_.periods();
     const bool may_leave_out = true;
-    BedPeriods bed(scene, run_.clock(), shots, may_leave_out);
+    PeriodChoice bed(scene, run_.clock(), shots, may_leave_out);
     const std::vector<FilmSegment> segments = segments_of(scene.film);
     const std::vector<MeasuredPeriods::Row>& rows = measured_.rows();
     std::vector<Due> kept;

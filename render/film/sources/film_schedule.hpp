@@ -7,11 +7,11 @@
 #include <set>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/run/stored/stored_run.hpp"
 #include "engine/scene/keys/keys.hpp"
+#include "engine/state/state.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/film/sources/bed_periods.hpp"
+#include "render/film/sources/period_choice.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -30,7 +30,7 @@ class FilmSchedule {
     // The last step of the run; there may be no frame of it.
     std::int64_t last_step() const { return last_; }
     // The moment at a step, as a frame without grains.
-    Frame moment(std::int64_t step) const;
+    State moment(std::int64_t step) const;
     // The place of a moment in the film: its segment, and the time in s of film at which its picture would
     // come.
     struct Place {
@@ -41,7 +41,7 @@ class FilmSchedule {
 
   private:
     void read_film_times();
-    // Those of the shots at which the bed looks alike (BedPeriods).
+    // Those of the shots at which the bed looks alike (PeriodChoice).
     std::vector<Due> with_bed(const std::vector<Due>& shots) const;
 
     const StoredRun& run_;

@@ -4,7 +4,7 @@
 
 #include "engine/questions/snapshot.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/film/sources/bed_periods.hpp"
+#include "render/film/sources/period_choice.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -36,9 +36,9 @@ std::vector<std::int64_t> PictureParts::averaged(std::int64_t step, const FilmSe
     return averaged_steps({step, 0}, rule, clock_, periods);
 }
 
-std::vector<WantedMoment> PictureParts::moments(std::int64_t step, const FilmSegment& rule,
-                                                int periods) const {
-    std::vector<WantedMoment> all;
+std::vector<WantedState> PictureParts::moments(std::int64_t step, const FilmSegment& rule,
+                                               int periods) const {
+    std::vector<WantedState> all;
     for (const std::int64_t one : earlier(step, periods)) all.push_back({one, false});
     for (const std::int64_t one : exposed(step, rule, periods)) all.push_back({one, true});
     for (const std::int64_t one : averaged(step, rule, periods))
@@ -49,10 +49,10 @@ std::vector<WantedMoment> PictureParts::moments(std::int64_t step, const FilmSeg
 void PictureParts::add(Shot& shot, const FilmSegment& rule, int periods, Beside beside,
                        const OtherMoments& others) const {
     for (const std::int64_t step : earlier(shot.step, periods))
-        if (const FramePtr before = others(step))
+        if (const StatePtr before = others(step))
             shot.displacement = displacement_since(*before, shot, periods, depth_);
     for (const std::int64_t step : exposed(shot.step, rule, periods))
-        if (const FramePtr moment = others(step))
+        if (const StatePtr moment = others(step))
             shot.exposed.push_back(std::make_shared<const Shot>(*moment));
     shot.touches = std::move(beside.touches);
     shot.worn = std::move(beside.worn);
@@ -67,8 +67,8 @@ void PictureParts::add_mean(Shot& shot, const FilmSegment& rule, int periods,
                             const OtherMoments& others) const {
     const std::vector<std::int64_t> steps = averaged(shot.step, rule, periods);
     if (steps.empty()) return;
-    const auto own = std::make_shared<const Frame>(places_of(shot));
-    std::vector<FramePtr> moments;
+    const auto own = std::make_shared<const State>(places_of(shot));
+    std::vector<StatePtr> moments;
     for (const std::int64_t step : steps) {
         const std::int64_t from = std::max(step, first_);
         moments.push_back(from == shot.step ? own : others(from));

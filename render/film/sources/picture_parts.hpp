@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/frame.hpp"
 #include "engine/measure/flow/flowed_out.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/run/driver/agenda.hpp"
 #include "engine/state/contact.hpp"
+#include "engine/state/state.hpp"
 #include "render/film/sampling/sampler.hpp"
-#include "render/film/sources/bed_periods.hpp"
+#include "render/film/sources/period_choice.hpp"
 #include "render/picture/base/shot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -25,7 +25,7 @@ namespace grainreel {
 
 // What is known about a picture's moment beside its grains, as far as the film shows it.
 struct Beside {
-    std::vector<Touch> touches{};
+    std::vector<Link> touches{};
     std::shared_ptr<const MeasureTable> measures{};  // null for none
     std::size_t measure_rows = 0;                    // number of rows up to the moment
     // What the grains do to the meshes, one entry for each mesh; null when that is not known.
@@ -33,7 +33,7 @@ struct Beside {
     std::optional<FlowedOut> flowed_out{};  // what has left the run up to the moment
 };
 // Grains and bodies at a step; null when they cannot be had.
-using OtherMoments = std::function<FramePtr(std::int64_t step)>;
+using OtherMoments = std::function<StatePtr(std::int64_t step)>;
 
 class PictureParts {
   public:
@@ -43,7 +43,7 @@ class PictureParts {
     // The other moments that the picture at `step` needs, in no particular order; some may come twice. rule:
     // the segment by which the picture is taken. periods: number of periods after which the bed repeats
     // itself.
-    std::vector<WantedMoment> moments(std::int64_t step, const FilmSegment& rule, int periods) const;
+    std::vector<WantedState> moments(std::int64_t step, const FilmSegment& rule, int periods) const;
 
     // Adds what is beside the moment, and what others() can give. A grain that is missing at an earlier
     // moment gets no displacement or no mean.

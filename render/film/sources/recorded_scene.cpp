@@ -128,7 +128,7 @@ constexpr double strays = 0.01;      // share of the grains that may be higher t
 
 }  // namespace
 
-std::optional<double> reach_of(const Frame& frame) {
+std::optional<double> reach_of(const State& frame) {
     std::vector<double> tops;
     tops.reserve(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) tops.push_back(frame.position[i].z() + frame.radius[i]);
@@ -139,7 +139,7 @@ std::optional<double> reach_of(const Frame& frame) {
     return *at;
 }
 
-std::optional<double> known_reach(const FrameArchive& archive) {
+std::optional<double> known_reach(const StateArchive& archive) {
     const std::size_t frames = archive.moments().size();
     const double grains = static_cast<double>(frames) *
                           static_cast<double>(std::max<std::size_t>(1, archive.world().most_grains));

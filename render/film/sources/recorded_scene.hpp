@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/run/stored/stored_run.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -36,9 +36,9 @@ FilmedRun open_filmed(const std::filesystem::path& path, const Assignments& sets
 // How high the grains of a finished run got, in m above the floor's rest position: in every frame 99 of 100
 // grains lie entirely below this height. Of a long trajectory with many grains only some evenly spread frames
 // are read. Damaged frames do not count. Empty without grains.
-std::optional<double> known_reach(const FrameArchive& archive);
+std::optional<double> known_reach(const StateArchive& archive);
 
 // The same height for one frame.
-std::optional<double> reach_of(const Frame& frame);
+std::optional<double> reach_of(const State& frame);
 
 }  // namespace grainreel

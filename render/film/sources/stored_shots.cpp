@@ -105,8 +105,8 @@ std::vector<Due> StoredShots::shots_of(const Pictures& pictures) const {
     return shots;
 }
 
-std::vector<Frame> StoredShots::moments(const Pictures& pictures) const {
-    std::vector<Frame> moments;
+std::vector<State> StoredShots::moments(const Pictures& pictures) const {
+    std::vector<State> moments;
     for (const Due& shot : shots_of(pictures)) moments.push_back(film_.moment(shown(shot.step)));
     return moments;
 }
@@ -132,9 +132,9 @@ std::optional<StoredMoment> StoredShots::take(std::int64_t step, bool touches, c
     return run_.at(step, touches, [&](double done) { return go_on() && (!watcher_ || watcher_(done)); });
 }
 
-FramePtr StoredShots::grains(std::int64_t step, const GoOn& go_on) {
+StatePtr StoredShots::grains(std::int64_t step, const GoOn& go_on) {
     std::optional<StoredMoment> moment = take(step, false, go_on);
-    return moment ? std::make_shared<const Frame>(std::move(moment->frame)) : nullptr;
+    return moment ? std::make_shared<const State>(std::move(moment->frame)) : nullptr;
 }
 
 // Keeps the wanted moments up to `step`. Pictures do without moments that cannot be had.
@@ -160,7 +160,7 @@ std::optional<Taken> StoredShots::next(const GoOn& go_on) {
     Shot shot(std::move(moment->frame));
     parts_.add(shot, segments_.at(static_cast<std::size_t>(due.segment)), periods,
                beside(shot.time, std::move(moment->touches)), [&](std::int64_t step) {
-                   FramePtr kept = kept_.at(step);
+                   StatePtr kept = kept_.at(step);
                    return kept ? kept : earlier(step);
                });
     const bool again = next_ < shots_.size() && shots_[next_].step == due.step;
@@ -169,14 +169,14 @@ std::optional<Taken> StoredShots::next(const GoOn& go_on) {
 }
 
 // A moment of the trajectory, for displacements; null where there is none at that step.
-FramePtr StoredShots::earlier(std::int64_t step) const {
+StatePtr StoredShots::earlier(std::int64_t step) const {
     const std::optional<std::size_t> index = run_.index_near(clock().time(step));
-    return index ? std::make_shared<const Frame>(run_.grains(*index)) : nullptr;
+    return index ? std::make_shared<const State>(run_.grains(*index)) : nullptr;
 }
 
-Beside StoredShots::beside(double time, std::optional<std::vector<Touch>> touches) const {
+Beside StoredShots::beside(double time, std::optional<std::vector<Link>> touches) const {
     Beside all;
-    all.touches = std::move(touches).value_or(std::vector<Touch>());
+    all.touches = std::move(touches).value_or(std::vector<Link>());
     if (needs_measures(scene_.film.shows)) {
         const double end = time * (1 + 1e-9) + 1e-12;
         all.measures = run_.measures();

@@ -9,19 +9,19 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/run/driver/agenda.hpp"
 #include "engine/run/stored/stored_run.hpp"
 #include "engine/scene/keys/keys.hpp"
+#include "engine/state/state.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/film_schedule.hpp"
-#include "render/film/sources/frame_source.hpp"
 #include "render/film/sources/picture_parts.hpp"
+#include "render/film/sources/shot_source.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
-class StoredShots final : public FrameSource {
+class StoredShots final : public ShotSource {
   public:
     // sets: changes to the scene that concern the drawing only: keys of [film], colours of species,
     // run.threads. replay: false if nothing may be brought back. sharers: number of runs that share the
@@ -60,8 +60,8 @@ class StoredShots final : public FrameSource {
     const FilmedScene& scene() const override { return scene_; }  // named after the folder
     bool has_any_moment() const override { return run_.brings_all_back(); }
     Span span() const override;
-    const FrameArchive* archive() const override { return &run_; }
-    std::vector<Frame> moments(const Pictures& pictures) const override;
+    const StateArchive* archive() const override { return &run_; }
+    std::vector<State> moments(const Pictures& pictures) const override;
     void start(const Pictures& pictures) override;
     // Starts with shots by their steps. Each step is shown itself, or by the nearest kept one.
     void start(const std::vector<Due>& shots, const std::vector<FilmSegment>& segments);
@@ -69,7 +69,7 @@ class StoredShots final : public FrameSource {
     std::vector<std::string> news() const override;
 
     // Only the grains and the container at a step that it has. Null when told to stop.
-    FramePtr grains(std::int64_t step, const GoOn& go_on);
+    StatePtr grains(std::int64_t step, const GoOn& go_on);
 
   private:
     std::vector<Due> shots_of(const Pictures& pictures) const;
@@ -77,8 +77,8 @@ class StoredShots final : public FrameSource {
     // Takes the moment of a step; empty when told to stop.
     std::optional<StoredMoment> take(std::int64_t step, bool touches, const GoOn& go_on);
     bool keep_moments_until(std::int64_t step, const GoOn& go_on);
-    FramePtr earlier(std::int64_t step) const;
-    Beside beside(double time, std::optional<std::vector<Touch>> touches) const;
+    StatePtr earlier(std::int64_t step) const;
+    Beside beside(double time, std::optional<std::vector<Link>> touches) const;
 
     FilmedScene scene_;
     StoredRun run_;
@@ -90,7 +90,7 @@ class StoredShots final : public FrameSource {
     ReplayWatcher watcher_;
     std::vector<Due> shots_;
     std::vector<FilmSegment> segments_;
-    KeptMoments kept_;
+    KeptStates kept_;
     std::set<std::int64_t> wanted_;  // steps whose moments later pictures need
     std::size_t next_ = 0;           // index of the next shot
 };

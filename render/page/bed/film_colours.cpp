@@ -8,7 +8,7 @@
 
 namespace grainreel {
 
-FilmColours::FilmColours(const FilmedScene& scene, const FrameArchive& run, const Clock& clock, double start)
+FilmColours::FilmColours(const FilmedScene& scene, const StateArchive& run, const Clock& clock, double start)
     : run_(run),
       clock_(clock),
       by_(scene.film.shows.colour.by),
@@ -22,7 +22,7 @@ FilmColours::FilmColours(const FilmedScene& scene, const FrameArchive& run, cons
 // Adds the displacement since the moment run_.periods() periods of the drive earlier. Returns false when the
 // run kept no such moment.
 bool FilmColours::add_displacement(std::size_t index, Shot& frame) const {
-    const Frame& now = run_.moments()[index];
+    const State& now = run_.moments()[index];
     if (frequency_ <= 0 || clock_.step <= 0) return false;
     const int periods = run_.periods();
     const double time = clock_.time(clock_.step_at(clock_.cycles(now.step) - periods));
@@ -44,7 +44,7 @@ std::uint8_t FilmColours::byte_of(double value) const {
 }
 
 std::vector<std::uint8_t> FilmColours::of(std::size_t index, Shot& frame,
-                                          const std::optional<std::vector<Touch>>& touches) {
+                                          const std::optional<std::vector<Link>>& touches) {
     std::vector<std::uint8_t> bytes(frame.size(), 0);
     const bool of_period = by_ == GrainValue::displacement || by_ == GrainValue::rise;
     if (of_period && !add_displacement(index, frame)) return bytes;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
-#include "engine/files/frames/frame_archive.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/state/contact.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/shot.hpp"
@@ -21,13 +21,13 @@ class FilmColours {
   public:
     // For a film whose grains are coloured by a quantity (film_has_scale). start: time in s of the film's
     // first picture; a grain's start height is its height at that time. The run must outlive this object.
-    FilmColours(const FilmedScene& scene, const FrameArchive& run, const Clock& clock, double start);
+    FilmColours(const FilmedScene& scene, const StateArchive& run, const Clock& clock, double start);
 
     // Colours of the grains at a moment of the run, in the frame's order: 0 when the quantity is not known,
     // else 1 to 255 from the low end of the film's range to its high end. If the film's scale has bands, each
     // value counts as the middle of its band. touches: those of the moment, if they are known.
     std::vector<std::uint8_t> of(std::size_t index, Shot& frame,
-                                 const std::optional<std::vector<Touch>>& touches);
+                                 const std::optional<std::vector<Link>>& touches);
 
     bool wants_touches() const { return by_ == GrainValue::coordination || by_ == GrainValue::contact_force; }
 
@@ -35,7 +35,7 @@ class FilmColours {
     bool add_displacement(std::size_t index, Shot& frame) const;
     std::uint8_t byte_of(double value) const;
 
-    const FrameArchive& run_;
+    const StateArchive& run_;
     const Clock clock_;
     const GrainValue by_;
     const double depth_, frequency_;  // period of a periodic container in m; frequency of the drive in Hz

@@ -205,7 +205,7 @@ PageMeshes page_meshes(const FilmedScene& scene, std::size_t most_bytes, std::si
     }
 }
 
-void take_meshes(Extent& box, const Scene& scene, const std::vector<Frame>& moments) {
+void take_meshes(Extent& box, const Scene& scene, const std::vector<State>& moments) {
     constexpr std::size_t most_moments = 24, most_vertices = 2000;
     const std::size_t stride = 1 + moments.size() / most_moments;
     auto body = static_cast<std::size_t>(first_mesh_body(scene));

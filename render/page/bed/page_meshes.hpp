@@ -16,15 +16,15 @@
 #include <vector>
 
 #include "engine/base/triangle_mesh.hpp"
-#include "engine/frame.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 struct PageMesh {
-    std::int32_t body = 0;  // its number in Frame::bodies (engine/state/pose.hpp)
+    std::int32_t body = 0;  // its number in State::bodies (engine/state/pose.hpp)
     std::string name;
     std::size_t vertices = 0, triangles = 0, glass = 0, sided = 0, edges = 0;
     std::size_t all_triangles = 0;     // number of triangles of the scene's mesh
@@ -48,7 +48,7 @@ PageMeshes page_meshes(const FilmedScene& scene, std::size_t most_bytes,
 
 // Enlarges the box so that it holds the meshes at these moments. Of many moments or vertices it looks at a
 // sample.
-void take_meshes(Extent& box, const Scene& scene, const std::vector<Frame>& moments);
+void take_meshes(Extent& box, const Scene& scene, const std::vector<State>& moments);
 
 // Fewer triangles of the same shape: the vertices in a cell of a cubic grid become one, their mean, and
 // triangles whose corners are no longer three different ones vanish (Rossignac and Borrel 1993,

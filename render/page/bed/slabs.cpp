@@ -141,7 +141,7 @@ Extent box_of(const std::vector<Slab>& slabs, const FilmedScene& scene) {
     return box;
 }
 
-void take_turned(Extent& box, const std::vector<Slab>& slabs, const std::vector<Frame>& moments) {
+void take_turned(Extent& box, const std::vector<Slab>& slabs, const std::vector<State>& moments) {
     constexpr std::size_t most_moments = 60;
     for (std::size_t k = 0; k < moments.size(); k += 1 + moments.size() / most_moments)
         for (const Slab& slab : slabs) {

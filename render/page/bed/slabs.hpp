@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/frame.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/state/state.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // A convex piece of wall, m, in the frame of its body at rest.
 struct Slab {
-    std::int32_t body = 0;              // its number in Frame::bodies (engine/state/pose.hpp)
+    std::int32_t body = 0;              // its number in State::bodies (engine/state/pose.hpp)
     std::vector<Vec3> inner;            // corners of the side towards the grains, in order around it
     std::vector<Vec3> outer;            // the other side of its thickness, corner by corner; empty for a pane
     std::vector<int> seams = {};        // sides of `inner` (number of the first corner) without an edge line
@@ -29,6 +29,6 @@ Extent box_of(const std::vector<Slab>& slabs, const FilmedScene& scene);
 
 // Enlarges the box so that it holds the slabs of turned bodies at these moments. Of many moments it looks at
 // a sample.
-void take_turned(Extent& box, const std::vector<Slab>& slabs, const std::vector<Frame>& moments);
+void take_turned(Extent& box, const std::vector<Slab>& slabs, const std::vector<State>& moments);
 
 }  // namespace grainreel

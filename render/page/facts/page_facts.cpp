@@ -110,7 +110,7 @@ Json forces_json(const PairForces& forces) {
 }
 
 // The data of the film's colour bar; null when the colours are those of the species.
-Json film_colours_json(const FilmedScene& scene, const BedFrames& bed) {
+Json film_colours_json(const FilmedScene& scene, const PageBed& bed) {
     if (!bed.has_film_colours) return {};
     const GrainColouring& colouring = scene.film.shows.colour;
     const ColourScale scale(colouring);
@@ -127,13 +127,13 @@ Json film_colours_json(const FilmedScene& scene, const BedFrames& bed) {
             {"colours", colours}};
 }
 
-Json bed_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& meshes) {
+Json bed_json(const FilmedScene& scene, const PageBed& bed, const PageMeshes& meshes) {
     const std::vector<Slab> slabs = slabs_of(scene);
     Extent box = box_of(slabs, scene);
     take_turned(box, slabs, bed.moments);
     take_meshes(box, scene, bed.moments);
     Json times = Json::array(), bodies = Json::array();
-    for (const Frame& moment : bed.moments) {
+    for (const State& moment : bed.moments) {
         times.push_back(moment.time);
         Json places = Json::array();
         for (const BodyPose& pose : moment.bodies) places.push_back(of_pose(pose));
@@ -242,7 +242,7 @@ std::string live_facts_json(const FilmedScene& scene) {
                          {"charts", Json::array()}});
 }
 
-std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& meshes) {
+std::string bed_facts_json(const FilmedScene& scene, const PageBed& bed, const PageMeshes& meshes) {
     return text_of_json(bed_json(scene, bed, meshes));
 }
 

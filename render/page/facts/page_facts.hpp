@@ -5,8 +5,8 @@
 #include <string>
 
 #include "engine/measure/measures.hpp"
-#include "render/film/sources/frame_source.hpp"
-#include "render/page/bed/bed_frames.hpp"
+#include "render/film/sources/shot_source.hpp"
+#include "render/page/bed/page_bed.hpp"
 #include "render/page/bed/page_meshes.hpp"
 #include "render/page/page_film.hpp"
 #include "render/page/page_measures.hpp"
@@ -21,7 +21,7 @@ struct PageFacts {
     Span span;  // simulated times of the run; the page's time axis
     const PageFilm& film;
     const FilmTimes& film_times;
-    const BedFrames& bed;
+    const PageBed& bed;
     const PageMeshes& meshes;
     const MeasureTable* table;  // null without measures
     const PageMeasures& measures;
@@ -36,7 +36,7 @@ std::string facts_json(const PageFacts& facts);
 // anything. bed_facts_json(): the newest moments of its bed. all_measures_json(): rows of its measures, with
 // all columns.
 std::string live_facts_json(const FilmedScene& scene);
-std::string bed_facts_json(const FilmedScene& scene, const BedFrames& bed, const PageMeshes& meshes);
+std::string bed_facts_json(const FilmedScene& scene, const PageBed& bed, const PageMeshes& meshes);
 std::string all_measures_json(const MeasureTable& table, const PageMeasures& measures);
 
 }  // namespace grainreel

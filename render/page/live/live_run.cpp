@@ -145,14 +145,14 @@ void LiveRun::read_bed_again() {
         request.contacts = false;
         const FilmedRun filmed = open_filmed(folder_, {}, request);
         const StoredRun& run = *filmed.run;
-        const std::vector<Frame>& moments = run.moments();
+        const std::vector<State>& moments = run.moments();
         trajectory_time_ = time;
         if (moments.back().step == bed_step_) return;
         std::optional<FilmColours> film;
         if (film_has_scale(filmed.scene)) film.emplace(filmed.scene, run, run.clock(), run.from());
-        BedContacts beside;
+        PageContacts beside;
         beside.film = film ? &*film : nullptr;
-        const BedFrames bed = bed_frames_of(run, shown_of(moments.size()), kNoPageProgress, beside);
+        const PageBed bed = bed_frames_of(run, shown_of(moments.size()), kNoPageProgress, beside);
         make_meshes(filmed.scene);
         bed_step_ = moments.back().step;
         bed_time_ = moments.back().time;

@@ -44,7 +44,7 @@ WatchAnswer part(const LiveSnapshot::Bytes& bytes, const char* type) {
 
 class Watch {
   public:
-    Watch(WatchTask& request, const Planner& planner, RunListener& listener)
+    Watch(WatchTask& request, const Planner& planner, Listener& listener)
         : folder_(request.run),
           until_(request.until),
           listener_(listener),
@@ -141,7 +141,7 @@ class Watch {
 
     const std::filesystem::path folder_;
     const int until_;
-    RunListener& listener_;
+    Listener& listener_;
     LiveRun run_;
     std::mutex mutex_;  // guards visitors_
     Visitors visitors_;
@@ -163,7 +163,7 @@ Listening listen_at(const WatchPlace& place) {
     }
 }
 
-int watch_run(WatchTask request, const Planner& planner, RunListener& listener) {
+int watch_run(WatchTask request, const Planner& planner, Listener& listener) {
     ::setpriority(PRIO_PROCESS, 0, priority);  // as far as the system allows it
     return Watch(request, planner, listener).serve(std::move(request.listening));
 }

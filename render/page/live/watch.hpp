@@ -33,7 +33,7 @@ struct WatchTask {
 
 // Tells `listener` the address, and shows the run until a signal comes or, with `until`, until the run is
 // over. Returns the exit status: 0; 1 when the folder is gone; 128 + the signal's number.
-int watch_run(WatchTask request, const Planner& planner, RunListener& listener);
+int watch_run(WatchTask request, const Planner& planner, Listener& listener);
 
 // Decides who may look: by the host name in the request and, if other machines can reach the page, by a key.
 class Visitors {

@@ -9,23 +9,23 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/frame.hpp"
 #include "engine/measure/flow/flowed_out.hpp"
 #include "engine/state/contact.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
 class MeasureTable;  // engine/measure/measures.hpp
 struct MeshWear;     // engine/measure/walls/mesh_wear.hpp
 
-struct Shot : Frame {
+struct Shot : State {
     Shot() = default;
     // A frame is a shot with nothing beside it. This copies or moves all grains.
-    Shot(Frame frame) : Frame(std::move(frame)) {}
+    Shot(State frame) : State(std::move(frame)) {}
 
     std::vector<Vec3> displacement;  // m, of each grain over the last period of the drive; also empty before
                                      // one has passed
-    std::vector<Touch> touches;
+    std::vector<Link> touches;
 
     // The rows of measures.csv so far: the first `measure_rows` rows of a table that goes on growing.
     std::shared_ptr<const MeasureTable> measures;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -81,7 +81,7 @@ View fit_view(const Camera& camera, const std::vector<Vec3>& points, const Recta
 
 // m: how far the container has come from its place at rest, for things that go with its shaking but not with
 // its turning. In a container that turns it is the displacement of a point on the axis.
-inline Vec3 way_of_container(const FilmedScene& scene, const Frame& frame) {
+inline Vec3 way_of_container(const FilmedScene& scene, const State& frame) {
     const std::optional<BodyTurn>& turn = scene.container.turn;
     return turn ? Vec3(frame.container().moved(turn->through) - turn->through) : frame.container().place;
 }

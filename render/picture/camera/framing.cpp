@@ -49,7 +49,7 @@ bool looks_steeply(const Camera& camera) {
 std::optional<double> wanted_top(const FilmedScene& scene) {
     const Camera& camera = scene.film.camera;
     const double stroke = scene.drive.present ? drive_peaks(scene.drive).offset * upward(scene) : 0;
-    if (camera.frame == CameraFrame::bed) {
+    if (camera.frame == FramingScope::bed) {
         const std::optional<double> rest = resting_top(scene);
         return rest ? std::optional(*rest + scene.film.exaggerate * stroke) : std::nullopt;
     }
@@ -146,7 +146,7 @@ FramedPart whole_container(const FilmedScene& scene) {
 
 FramedPart framed_part(const FilmedScene& scene) {
     const Container& container = scene.container;
-    const bool all = scene.film.camera.frame == CameraFrame::container ||
+    const bool all = scene.film.camera.frame == FramingScope::container ||
                      container.shape == Container::Shape::none || container.shape == Container::Shape::mesh ||
                      container.turn || looks_steeply(scene.film.camera);
     const std::optional<double> top = all ? std::nullopt : wanted_top(scene);

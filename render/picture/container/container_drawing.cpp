@@ -29,7 +29,7 @@ double drawn_thickness(const Container& container) {
 namespace {
 
 void draw_ghost(const FilmedScene& scene, const Sketch& lab, Shapes& on) {
-    for (const FreeWall& wall : scene.walls)
+    for (const ScenePlane& wall : scene.walls)
         if (wall.moves) draw_free_wall_ghost(wall, scene, lab, on);
     const bool floor_only = scene.drive.moves == Drive::Moves::floor;
     if (scene.container.shape == Container::Shape::cylinder)
@@ -47,7 +47,7 @@ void draw_at(const Container& container, const Sketches& sketches, ContainerShap
 
 }  // namespace
 
-void draw_container(const FilmedScene& scene, const Views& views, const Frame& frame, const Palette& palette,
+void draw_container(const FilmedScene& scene, const Views& views, const State& frame, const Palette& palette,
                     int picture_height, ContainerShapes& shapes) {
     shapes.behind.clear();
     shapes.before.clear();
@@ -78,7 +78,7 @@ namespace {
 
 // The corners of the plane's cut through the box, in order around it; fewer than three where the plane misses
 // the box.
-std::vector<Vec3> cut(const FreeWall& wall, const Vec3& point, const Extent& extent) {
+std::vector<Vec3> cut(const ScenePlane& wall, const Vec3& point, const Extent& extent) {
     const std::vector<Vec3> corners = extent_corners(extent);
     std::vector<Vec3> crossings;
     for (int a = 0; a < 8; ++a) {
@@ -131,7 +131,7 @@ std::vector<Vec3> inside(std::vector<Vec3> piece, const Container& container) {
 
 }  // namespace
 
-std::vector<Vec3> piece_of_plane(const FreeWall& wall, const FilmedScene& scene, const Vec3& offset) {
+std::vector<Vec3> piece_of_plane(const ScenePlane& wall, const FilmedScene& scene, const Vec3& offset) {
     std::vector<Vec3> piece = inside(cut(wall, wall.point + offset, extent_of(scene)), scene.container);
     return piece.size() >= 3 ? piece : std::vector<Vec3>();
 }
@@ -144,7 +144,7 @@ std::vector<Vec3> extent_corners(const Extent& extent) {
     return corners;
 }
 
-void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
+void draw_free_wall(const ScenePlane& wall, const FilmedScene& scene, const Sketch& sketch,
                     ContainerShapes& shapes) {
     // The sketch moves what it draws. So the piece is cut where the wall is now, and then moved back.
     std::vector<Vec3> piece = piece_of_plane(wall, scene, sketch.offset());
@@ -157,7 +157,7 @@ void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch
     sketch.line(on, piece, true, sketch.pen, blend(sketch.glass_edge(), sketch.far_edge(), solid));
 }
 
-void draw_free_wall_ghost(const FreeWall& wall, const FilmedScene& scene, const Sketch& lab, Shapes& on) {
+void draw_free_wall_ghost(const ScenePlane& wall, const FilmedScene& scene, const Sketch& lab, Shapes& on) {
     const std::vector<Vec3> piece = piece_of_plane(wall, scene, Vec3(0, 0, 0));
     if (!piece.empty()) lab.dashed(on, piece, true, 0.8 * lab.pen, lab.ghost());
 }

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 #include "render/picture/base/canvas.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
@@ -50,7 +50,7 @@ struct Views {
 
 // frame: the frame as it is shown, with the motion exaggerated. picture_height: pixels; decides how wide
 // lines are.
-void draw_container(const FilmedScene& scene, const Views& views, const Frame& frame, const Palette& palette,
+void draw_container(const FilmedScene& scene, const Views& views, const State& frame, const Palette& palette,
                     int picture_height, ContainerShapes& shapes);
 
 // m: the height at which a grain that falls below everything else leaves the run, by entering a box or by

@@ -111,15 +111,15 @@ void draw_cylinder(const Container& container, const Sketches& sketches, Contain
 // The piece of a plane, moved by `offset`, that lies in the container; without a container, the piece that
 // lies in the box of everything that the camera looks at. These are its corners in order, m; empty if there
 // is no such piece.
-std::vector<Vec3> piece_of_plane(const FreeWall& wall, const FilmedScene& scene, const Vec3& offset);
-void draw_free_wall(const FreeWall& wall, const FilmedScene& scene, const Sketch& sketch,
+std::vector<Vec3> piece_of_plane(const ScenePlane& wall, const FilmedScene& scene, const Vec3& offset);
+void draw_free_wall(const ScenePlane& wall, const FilmedScene& scene, const Sketch& sketch,
                     ContainerShapes& shapes);
 
 // These draw dashed outlines over the grains, at the rest positions of the container's moving parts or of a
 // plane that moves.
 void draw_prism_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
 void draw_cylinder_ghost(const Container& container, bool floor_only, const Sketch& lab, Shapes& on);
-void draw_free_wall_ghost(const FreeWall& wall, const FilmedScene& scene, const Sketch& lab, Shapes& on);
+void draw_free_wall_ghost(const ScenePlane& wall, const FilmedScene& scene, const Sketch& lab, Shapes& on);
 
 // m: half the width of the drawn container at the height of the floor's top.
 double outer_floor_half_width(const Container& container);

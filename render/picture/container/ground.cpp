@@ -103,7 +103,7 @@ void ShadowMap::place_around_extent(const Vec3& to_key) {
 
 // Adds the floor's plate, or the tray's plate where there is a tray. Its shadow is nearly complete (optical
 // depth 4). From each cell the light is followed back to the plate, in the frame of the plate's body.
-void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
+void ShadowMap::add_plate(const State& frame, const Vec3& to_key) {
     const double half = outer_floor_half_width(foot_), cell = side_ / kSide;
     const bool round = foot_.shape == Container::Shape::cylinder;
     const double half_depth = round ? half : 0.5 * foot_.depth;
@@ -130,7 +130,7 @@ void ShadowMap::add_plate(const Frame& frame, const Vec3& to_key) {
 }
 
 // Adds what the disc of each grain covers, shared between four cells. Optical depths add up.
-void ShadowMap::add_grains(const Frame& frame, const Vec3& to_key) {
+void ShadowMap::add_grains(const State& frame, const Vec3& to_key) {
     const double per_area = std::pow(kSide / side_, 2);
     for (std::size_t g = 0; g < frame.size(); ++g)
         add_depth(fall(frame.position[g], to_key).array() - 0.5,
@@ -138,7 +138,7 @@ void ShadowMap::add_grains(const Frame& frame, const Vec3& to_key) {
 }
 
 // Adds the light that each patch of a mesh takes.
-void ShadowMap::add_meshes(const Frame& frame, const Vec3& to_key) {
+void ShadowMap::add_meshes(const State& frame, const Vec3& to_key) {
     const double per_area = std::pow(kSide / side_, 2) / std::max(to_key.z(), kLeastRise);
     meshes_.visit(frame, to_key, [&](const Vec3& at, double area) {
         add_depth(fall(at, to_key).array() - 0.5, area * per_area);
@@ -177,7 +177,7 @@ void ShadowMap::soften() {
     }
 }
 
-void ShadowMap::cast(const Frame& frame, const Vec3& to_key) {
+void ShadowMap::cast(const State& frame, const Vec3& to_key) {
     place(to_key);
     std::fill(cells_.begin(), cells_.end(), 0.0f);
     add_grains(frame, to_key);
@@ -216,7 +216,7 @@ Ground::Ground(const FilmedScene& scene, const Rectangle& port)
     for (int x = 0; x < width_; ++x) across_.push_back(margin(x, width_, height_));
 }
 
-void Ground::update(const Frame& frame, const View& view) {
+void Ground::update(const State& frame, const View& view) {
     const Lamp lamp;
     view_ = view;
     map_.cast(frame, lamp.to_key[0] * view.right + lamp.to_key[1] * view.up + lamp.to_key[2] * view.forward);

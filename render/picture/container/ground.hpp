@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/frame.hpp"
 #include "engine/scene/bed.hpp"
+#include "engine/state/state.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -27,7 +27,7 @@ class ShadowMap {
     explicit ShadowMap(const FilmedScene& scene);
 
     // to_key: unit vector towards the key light, in the lab.
-    void cast(const Frame& frame, const Vec3& to_key);
+    void cast(const State& frame, const Vec3& to_key);
 
     const std::vector<float>& cells() const { return cells_; }  // rows along y, x fastest
     double height() const { return height_; }                   // m, z of the ground
@@ -37,9 +37,9 @@ class ShadowMap {
   private:
     void place(const Vec3& to_key);
     void place_around_extent(const Vec3& to_key);
-    void add_plate(const Frame& frame, const Vec3& to_key);
-    void add_grains(const Frame& frame, const Vec3& to_key);
-    void add_meshes(const Frame& frame, const Vec3& to_key);
+    void add_plate(const State& frame, const Vec3& to_key);
+    void add_grains(const State& frame, const Vec3& to_key);
+    void add_meshes(const State& frame, const Vec3& to_key);
     void add_depth(const Eigen::Vector2d& at, double depth);
     void soften();
     // Where light that passes `point` meets the ground, in cells.
@@ -61,7 +61,7 @@ class Ground {
     // The scene must have a container.
     Ground(const FilmedScene& scene, const Rectangle& port);
 
-    void update(const Frame& frame, const View& view);
+    void update(const State& frame, const View& view);
 
     // Darkens row y of the port, counted from the top. Several threads may work on different rows.
     void shade(int y, std::uint32_t* pixels) const;

@@ -23,7 +23,7 @@ void keep(std::vector<T>& values, const std::vector<std::size_t>& kept) {
 
 }  // namespace
 
-std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame) {
+std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const State& frame) {
     if (!cut.present) return {};
     const Vec3& normal = cut.normal;
     // The cut goes with a floor that shakes, not with one that turns.
@@ -84,7 +84,7 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // J: the energy of translation and of rotation, with the moment of inertia 2/5 m r2 of a solid sphere.
-double kinetic_energy(const Frame& frame, std::size_t i, double density) {
+double kinetic_energy(const State& frame, std::size_t i, double density) {
     const double r = frame.radius[i];
     const double mass = density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
     return 0.5 * mass * (frame.velocity[i].squaredNorm() + 0.4 * r * r * frame.spin[i].squaredNorm());
@@ -96,7 +96,7 @@ Quantities::Quantities(const FilmedScene& scene, GrainValue by) : by_(by) {
     for (const Species& species : scene.species) density_.push_back(species.density);
 }
 
-void Quantities::start_from(const Frame& frame) {
+void Quantities::start_from(const State& frame) {
     if (by_ != GrainValue::start_height) return;
     start_id_ = frame.id;
     start_height_.clear();
@@ -115,7 +115,7 @@ void Quantities::count_touches(const Shot& frame, bool forces) {
         if (id < 0) return;  // a wall
         if (const auto grain = frame.row_of(id)) values_[*grain] += forces ? force : 1;
     };
-    for (const Touch& touch : frame.touches) {
+    for (const Link& touch : frame.touches) {
         add(touch.first, touch.force);
         add(touch.second, touch.force);
     }

@@ -21,7 +21,7 @@ struct HalfSpace {
 };
 // What the film's cut keeps of the bed: one half-space, or the two of a slab; empty without a cut. The cut
 // goes with the floor, so it depends on the frame.
-std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const Frame& frame);
+std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const State& frame);
 
 // Leaves out the grains that a picture does not show.
 class ShownGrains {
@@ -57,7 +57,7 @@ class Quantities {
 
     // Takes the heights at the start from this frame. Without a call they come from the first frame that of()
     // sees.
-    void start_from(const Frame& frame);
+    void start_from(const State& frame);
 
     // SI: the value of each grain, in the frame's order. It is NaN where it is not known: the start height of
     // a grain that was not there at the start, and displacements before a period has passed. It is NaN for
@@ -88,7 +88,7 @@ class GrainColours {
     explicit GrainColours(const FilmedScene& scene);
 
     // See Quantities::start_from().
-    void start_from(const Frame& frame) { quantities_.start_from(frame); }
+    void start_from(const State& frame) { quantities_.start_from(frame); }
 
     // The albedo of each grain, in the frame's order.
     const std::vector<Albedo>& of(const Shot& frame);

@@ -35,7 +35,7 @@ GluedSpheres::GluedSpheres(const FilmedScene& scene) {
     colour_ = to_albedo(mix(species, neutral_grain, kGreyer));
 }
 
-std::vector<GluedSpheres::Seen> GluedSpheres::seen(const View& view, const Frame& frame) const {
+std::vector<GluedSpheres::Seen> GluedSpheres::seen(const View& view, const State& frame) const {
     std::vector<Seen> all;
     for (const Glued& one : glued_) {
         const BodyPose pose = frame.body(one.body);
@@ -108,7 +108,7 @@ void SpherePainter::take(const View& view, const Shot& frame) {
 }
 
 // Grains glued to walls come last, so that all others keep their places.
-void SpherePainter::add_glued(const View& view, const Frame& frame) {
+void SpherePainter::add_glued(const View& view, const State& frame) {
     for (const GluedSpheres::Seen& seen : glued_.seen(view, frame)) {
         const Vec3 at = view.to_view(seen.centre);
         spheres_.spheres.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()),
@@ -120,7 +120,7 @@ void SpherePainter::add_glued(const View& view, const Frame& frame) {
 }
 
 // Takes the planes of the cut into view coordinates.
-void SpherePainter::open_bed(const View& view, const Frame& frame) {
+void SpherePainter::open_bed(const View& view, const State& frame) {
     cut_.planes = 0;
     for (const HalfSpace& kept : kept_by_cut(look_.cut, frame))
         cut_.plane[cut_.planes++] = {static_cast<float>(kept.normal.dot(view.right)),
@@ -129,7 +129,7 @@ void SpherePainter::open_bed(const View& view, const Frame& frame) {
                                      static_cast<float>(kept.distance - kept.normal.dot(view.eye))};
 }
 
-void SpherePainter::mark_rotation(const View& view, const Frame& frame) {
+void SpherePainter::mark_rotation(const View& view, const State& frame) {
     spheres_.poles.clear();
     if (!look_.rotation || frame.orientation.size() != frame.size()) return;
     for (const Quaternion& turned : frame.orientation) {
@@ -140,7 +140,7 @@ void SpherePainter::mark_rotation(const View& view, const Frame& frame) {
     }
 }
 
-void SpherePainter::mark_painted(const Frame& frame) {
+void SpherePainter::mark_painted(const State& frame) {
     if (painted_.empty()) return;
     spheres_.painted.clear();
     for (std::size_t i = 0; i < frame.size(); ++i)

@@ -27,7 +27,7 @@ class GluedSpheres {
     };
     // The glued grains that are drawn. Those on the side walls (normal along y) are always drawn. Those on
     // any other wall are drawn only if the eye sees that wall from inside; else they would hide the bed.
-    std::vector<Seen> seen(const View& view, const Frame& frame) const;
+    std::vector<Seen> seen(const View& view, const State& frame) const;
     const Albedo& colour() const { return colour_; }
 
   private:
@@ -59,7 +59,7 @@ class SpherePainter {
     void paint_all_but(const std::vector<std::int32_t>& ids) { not_painted_ = ids; }
 
     // Tells the film's first frame, from which colours by the height at the start are taken.
-    void start_from(const Frame& frame) { grain_colours_.start_from(frame); }
+    void start_from(const State& frame) { grain_colours_.start_from(frame); }
 
     const ClippedCount& clipped() const { return grain_colours_.clipped(); }
 
@@ -81,10 +81,10 @@ class SpherePainter {
     const std::vector<WallPixel>& wall_pixels() const { return layer_.wall_order().pixels(); }
 
   private:
-    void add_glued(const View& view, const Frame& frame);
-    void open_bed(const View& view, const Frame& frame);
-    void mark_rotation(const View& view, const Frame& frame);
-    void mark_painted(const Frame& frame);
+    void add_glued(const View& view, const State& frame);
+    void open_bed(const View& view, const State& frame);
+    void mark_rotation(const View& view, const State& frame);
+    void mark_painted(const State& frame);
 
     GrainColours grain_colours_;
     GluedSpheres glued_;

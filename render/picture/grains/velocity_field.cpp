@@ -17,7 +17,7 @@ constexpr double most_cells = 20000;  // cells of a picture's field
 constexpr double pi = std::numbers::pi;
 
 // Hz: the inverse of the drive's last period.
-double periods_a_second(const FilmedScene& scene, const Frame& frame) {
+double periods_a_second(const FilmedScene& scene, const State& frame) {
     if (!scene.drive.changes()) return scene.drive.frequency;
     const DriveSchedule schedule(scene.drive);
     return 1 / (schedule.times().time(frame.cycles) - schedule.times().time(frame.cycles - 1));

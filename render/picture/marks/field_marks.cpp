@@ -176,7 +176,7 @@ void FlowMarks::draw(const View& view, const Shot& frame, Shapes& on) {
     }
 }
 
-void FlowMarks::draw_arrows(const View& view, const Frame& frame, Shapes& on) const {
+void FlowMarks::draw_arrows(const View& view, const State& frame, Shapes& on) const {
     const double side = arrow_cell(scene_), scale = arrow_scale(scene_);
     const Extent extent = extent_of(scene_);
     const Vec3 way = way_of_container(scene_, frame);
@@ -195,7 +195,7 @@ void FlowMarks::draw_arrows(const View& view, const Frame& frame, Shapes& on) co
 }
 
 // The seeds stay at the places of a staggered grid, so that the lines change as gently as the flow.
-void FlowMarks::draw_streamlines(const View& view, const Frame& frame, Shapes& on) const {
+void FlowMarks::draw_streamlines(const View& view, const State& frame, Shapes& on) const {
     const double side = seed_distance(scene_);
     const Extent extent = extent_of(scene_);
     const auto upward = static_cast<int>(std::ceil(extent.size().z() / side));
@@ -208,7 +208,7 @@ void FlowMarks::draw_streamlines(const View& view, const Frame& frame, Shapes& o
 }
 
 // A streamline is thin where it begins, has a head where it ends, and is wide where the flow is fast.
-void FlowMarks::draw_streamline(const View& view, const Frame& frame, const Eigen::Vector2d& seed,
+void FlowMarks::draw_streamline(const View& view, const State& frame, const Eigen::Vector2d& seed,
                                 Shapes& on) const {
     const double side = seed_distance(scene_), full = scene_.film.shows.streamlines.speed;
     const PlaneVelocity velocity = [&](const Eigen::Vector2d& at) -> std::optional<Eigen::Vector2d> {

@@ -26,7 +26,7 @@ class FieldLayer {
     explicit FieldLayer(const FilmedScene& scene);
 
     // See Renderer::start_from().
-    void start_from(const Frame& frame) { quantities_.start_from(frame); }
+    void start_from(const State& frame) { quantities_.start_from(frame); }
     void draw(const View& view, const Shot& frame, Shapes& on);
     const ClippedCount& clipped() const { return clipped_; }  // counts cells
 
@@ -73,9 +73,9 @@ class FlowMarks {
     void draw(const View& view, const Shot& frame, Shapes& on);
 
   private:
-    void draw_arrows(const View& view, const Frame& frame, Shapes& on) const;
-    void draw_streamlines(const View& view, const Frame& frame, Shapes& on) const;
-    void draw_streamline(const View& view, const Frame& frame, const Eigen::Vector2d& seed, Shapes& on) const;
+    void draw_arrows(const View& view, const State& frame, Shapes& on) const;
+    void draw_streamlines(const View& view, const State& frame, Shapes& on) const;
+    void draw_streamline(const View& view, const State& frame, const Eigen::Vector2d& seed, Shapes& on) const;
 
     const FilmedScene& scene_;
     const Palette palette_;

@@ -31,7 +31,7 @@ bool Trails::chosen(std::int32_t id, std::int32_t species) const {
     return species_[species] || std::find(grains_.begin(), grains_.end(), id) != grains_.end();
 }
 
-void Trails::take(const Frame& frame) {
+void Trails::take(const State& frame) {
     if (!past_.empty() && frame.time == past_.front().time) return;
     if (!past_.empty() && frame.time < past_.front().time) past_.clear();
     PastFrame now{frame.time, {}, {}};
@@ -95,12 +95,12 @@ Marks::Marks(const FilmedScene& scene, const Palette& palette)
     if (scene.film.shows.wall_forces.wanted) wall_forces_.emplace(scene, palette);
 }
 
-void Marks::start_from(const Frame& frame) {
+void Marks::start_from(const State& frame) {
     condition_.start_from(frame);
     if (field_) field_->start_from(frame);
 }
 
-void Marks::remember(const Frame& frame) {
+void Marks::remember(const State& frame) {
     if (scene_.film.shows.trails.wanted()) trails_.take(frame);
 }
 
@@ -125,7 +125,7 @@ void Marks::draw_chains(const View& view, const Shot& frame, Shapes& on) const {
     const double widest = widest_line(scene_.film.height), force = widest_force(scene_);
     const double too_far = scene_.container.periodic_depth ? 0.5 * scene_.container.depth
                                                            : std::numeric_limits<double>::infinity();
-    for (const Touch& touch : frame.touches) {
+    for (const Link& touch : frame.touches) {
         const auto first = frame.row_of(touch.first), second = frame.row_of(touch.second);
         if (!first || !second || touch.force < weakest_force * force) continue;
         const Vec3 &a = frame.position[*first], &b = frame.position[*second];

@@ -27,7 +27,7 @@ class Trails {
 
     // Takes frames in the order of time. A frame that is taken again adds nothing, and an earlier one starts
     // the trails anew.
-    void take(const Frame& frame);
+    void take(const State& frame);
 
     struct Point {
         double age;  // 0: now, 1: as old as trails get
@@ -62,9 +62,9 @@ class Marks {
     Marks(const FilmedScene& scene, const Palette& palette);
 
     // See Renderer::start_from().
-    void start_from(const Frame& frame);
+    void start_from(const State& frame);
     // Takes a frame that is not drawn but belongs to the trails.
-    void remember(const Frame& frame);
+    void remember(const State& frame);
     // Tells which share of a grain of the frame is seen.
     using SeenShare = std::function<double(std::size_t grain)>;
     // Adds the marks to the shapes that are painted after the grains. Frames come in the order of time.

@@ -69,7 +69,7 @@ void SceneMeshes::colour_by(const Shot& frame) {
     }
 }
 
-const std::vector<DrawnMesh>& SceneMeshes::at(const Frame& frame) {
+const std::vector<DrawnMesh>& SceneMeshes::at(const State& frame) {
     for (std::size_t m = 0; m < drawn_.size(); ++m) drawn_[m].pose = frame.body(body_[m]);
     return drawn_;
 }

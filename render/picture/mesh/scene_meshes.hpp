@@ -31,7 +31,7 @@ class SceneMeshes {
     // How many of the triangles that it has coloured lay beyond the range.
     const ClippedCount& clipped() const { return clipped_; }
     // The meshes where they are in a frame.
-    const std::vector<DrawnMesh>& at(const Frame& frame);
+    const std::vector<DrawnMesh>& at(const State& frame);
 
   private:
     std::vector<DrawnMesh> drawn_;
@@ -62,7 +62,7 @@ class MeshShadows {
     // Calls visit(place, area) for each patch, with the area (m2) that it takes from light that comes from
     // `to_light`.
     template <class Visit>
-    void visit(const Frame& frame, const Vec3& to_light, const Visit& visit) const {
+    void visit(const State& frame, const Vec3& to_light, const Visit& visit) const {
         for (const Patch& patch : patches_) {
             const BodyPose pose = frame.body(patch.body);
             visit(pose.moved(patch.at), std::abs(to_light.dot(pose.rotation * patch.area)));

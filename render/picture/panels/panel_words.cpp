@@ -20,9 +20,9 @@ constexpr int pace_lines = 4;
 // Writes what is true of the drives in all panels; what differs is in their captions. frame: null to measure
 // the longest lines.
 TextSize common_drive(const Writer& writer, const FilmedScene& scene, const Common& common,
-                      const Frame* frame, double x, double y) {
+                      const State* frame, double x, double y) {
     if (!scene.film.word_kinds.drive) return {};
-    Frame shown = frame ? *frame : Frame();
+    State shown = frame ? *frame : State();
     if (!scene.drive.present) shown.cycles = scene.drive.ramp;  // drives may grow at different rates
     std::vector<std::string> lines = frame ? drive_lines(scene, shown) : longest_drive_lines(scene);
     const bool levels = scene.gravity.norm() > 0;
@@ -44,7 +44,7 @@ TextSize common_drive(const Writer& writer, const FilmedScene& scene, const Comm
 WordBlock dial(const Writer& measure, const Drive& drive) {
     const double radius = 2.2 * measure.type.main;
     return {dial_block(measure, drive, nullptr, radius, 0, 0), true,
-            [drive, radius](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
+            [drive, radius](const Writer& on, double x, double y, const State& frame, const std::string&) {
                 dial_block(on, drive, nullptr, radius, x, y);
                 dial_block(on, drive, &frame, radius, x, y);
             }};
@@ -70,7 +70,7 @@ WordBlock playback_block(const Writer& measure, const Film& film) {
     return {
         {wrap, 3 * line.height},
         true,
-        [film, wrap](const Writer& on, double x, double y, const Frame& frame, const std::string& playback) {
+        [film, wrap](const Writer& on, double x, double y, const State& frame, const std::string& playback) {
             on.write(x, y, playback_text(film, frame, playback), on.minor(), on.palette.faint_ink, wrap, 3);
         }};
 }
@@ -86,7 +86,7 @@ WordBlock captions_block(const Writer& measure, const Film& film, double width) 
             write_in_middle(measure, caption.text, measure.main(), measure.palette.ink, inner, lines).height);
     return {{inner, height},
             true,
-            [captions = film.captions, inner](const Writer& on, double x, double y, const Frame& frame,
+            [captions = film.captions, inner](const Writer& on, double x, double y, const State& frame,
                                               const std::string&) {
                 for (const FilmCaption& caption : captions)
                     if (shows_caption(caption, frame.time))
@@ -105,7 +105,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
     std::vector<WordBlock> blocks;
     if (common.captions) blocks.push_back(captions_block(measure, scene.film, width));
     blocks.push_back({clock_block(measure, scene, widest_frame(), 0, 0), true,
-                      [scene](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
+                      [scene](const Writer& on, double x, double y, const State& frame, const std::string&) {
                           clock_block(on, scene, frame, x, y);
                       }});
     if (common.clock && kinds.dial) blocks.push_back(dial(measure, scene.drive));
@@ -113,26 +113,26 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
         blocks.push_back(
             {common_drive(measure, scene, common, nullptr, 0, 0),
              scene.drive.changes() || drive_lines_change(scene.drive),
-             [scene, common](const Writer& on, double x, double y, const Frame& frame, const std::string&) {
+             [scene, common](const Writer& on, double x, double y, const State& frame, const std::string&) {
                  common_drive(on, scene, common, &frame, x, y);
              }});
     }
     if (common.exaggerated && scene.film.exaggerate != 1) {
         blocks.push_back({exaggeration_block(measure, scene.film, 0, 0), false,
-                          [film = scene.film](const Writer& on, double x, double y, const Frame&,
+                          [film = scene.film](const Writer& on, double x, double y, const State&,
                                               const std::string&) { exaggeration_block(on, film, x, y); }});
     }
     if (common.playback && kinds.playback) blocks.push_back(playback_block(measure, scene.film));
     if (common.species) {
         blocks.push_back({legend_block(measure, scene, 0, 0, 0), false,
-                          [scene](const Writer& on, double x, double y, const Frame&, const std::string&) {
+                          [scene](const Writer& on, double x, double y, const State&, const std::string&) {
                               legend_block(on, scene, x, y, 0);
                           }});
     }
     if (common.colours && has_colour_bar(scene.film)) {
         const double wide = common_colour_bar * width;
         blocks.push_back({colour_bar_block(measure, scene, 0, 0, wide), false,
-                          [scene, wide](const Writer& on, double x, double y, const Frame&,
+                          [scene, wide](const Writer& on, double x, double y, const State&,
                                         const std::string&) { colour_bar_block(on, scene, x, y, wide); }});
     }
     const double wrap = std::max(common_marks * width, 15 * measure.type.minor);
@@ -141,7 +141,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
     if (const TextSize size = marks_block(measure, marked, pixels, 0, 0, wrap); size.height > 0) {
         blocks.push_back(
             {size, false,
-             [marked, pixels, wrap](const Writer& on, double x, double y, const Frame&, const std::string&) {
+             [marked, pixels, wrap](const Writer& on, double x, double y, const State&, const std::string&) {
                  marks_block(on, marked, pixels, x, y, wrap);
              }});
     }
@@ -150,7 +150,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
         const double longest = longest_bar * width;
         blocks.push_back({{longest, scale_block(measure, scale, 0, 0, longest).height},
                           false,
-                          [scale, longest](const Writer& on, double x, double y, const Frame&,
+                          [scale, longest](const Writer& on, double x, double y, const State&,
                                            const std::string&) { scale_block(on, scale, x, y, longest); }});
     }
     std::erase_if(blocks, [](const WordBlock& block) { return block.size.height <= 0; });

@@ -17,7 +17,7 @@ namespace grainreel {
 
 struct WordBlock {
     using Draw =
-        std::function<void(const Writer&, double x, double y, const Frame&, const std::string& playback)>;
+        std::function<void(const Writer&, double x, double y, const State&, const std::string& playback)>;
     TextSize size;
     bool changes = false;
     Draw draw;

@@ -155,7 +155,7 @@ void share_reach(std::vector<Panel>& panels) {
     std::optional<double> highest;
     for (const Panel& panel : panels) {
         const Camera& camera = panel.scene.film.camera;
-        if (camera.frame != CameraFrame::reach) return;
+        if (camera.frame != FramingScope::reach) return;
         const std::optional<double> reach = camera.reach ? camera.reach : estimated_reach(panel.scene);
         if (!reach) return;
         highest = std::max(highest.value_or(*reach), *reach);

@@ -168,7 +168,7 @@ void SideBySide::Impl::write_still_words(const std::vector<Panel>& panels, const
     });
     renew(layout.bottom, [&](const Writer& on) {
         for (const WordBlock& block : blocks)
-            if (!block.changes) block.draw(on, block.x, block.y, Frame(), "");
+            if (!block.changes) block.draw(on, block.x, block.y, State(), "");
     });
     for (std::size_t i = 0; i < panels.size(); ++i) {
         const PanelLayout::Place& place = layout.places[i];

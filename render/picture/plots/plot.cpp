@@ -23,7 +23,7 @@ std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlo
                                          const Palette& palette, double expected) {
     if (plot.is_profile())
         return std::make_unique<ProfilePlot>(scene, plot, place.width, place.height, type, palette);
-    PlotFrame frame = plot_frame(scene, plot);
+    PlotRange frame = plot_frame(scene, plot);
     frame.time[1] = end;
     frame.expected = std::max(frame.expected, expected);
     frame.width = place.width;
@@ -44,8 +44,8 @@ void Plot::Slice::add(double value) {
     high = std::max(high, value);
 }
 
-PlotFrame plot_frame(const FilmedScene& scene, const FilmPlot& plot) {
-    PlotFrame frame;
+PlotRange plot_frame(const FilmedScene& scene, const FilmPlot& plot) {
+    PlotRange frame;
     frame.column = plot.column;
     frame.label = plot.label;
     frame.dimension = plot.dimension;
@@ -58,7 +58,7 @@ PlotFrame plot_frame(const FilmedScene& scene, const FilmPlot& plot) {
     return frame;
 }
 
-Plot::Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette)
+Plot::Plot(const PlotRange& frame, const TypeScale& type, const Palette& palette)
     : frame_(frame),
       type_(type),
       palette_(palette),

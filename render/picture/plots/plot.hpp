@@ -41,7 +41,7 @@ std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlo
                                          const Palette& palette, double expected = 0);
 
 // What is known of a plot against time before the film begins.
-struct PlotFrame {
+struct PlotRange {
     std::string column, label;
     Dimension dimension = Dimension::number;
     std::array<double, 2> time{0, 1};            // s, of the whole run
@@ -51,12 +51,12 @@ struct PlotFrame {
     double expected = 0;        // SI: a value that the values' unit must suit
     int width = 0, height = 0;  // pixels
 };
-// The PlotFrame of a plot of the scene's film, without its size.
-PlotFrame plot_frame(const FilmedScene& scene, const FilmPlot& plot);
+// The PlotRange of a plot of the scene's film, without its size.
+PlotRange plot_frame(const FilmedScene& scene, const FilmPlot& plot);
 
 class Plot final : public SidePlot {
   public:
-    Plot(const PlotFrame& frame, const TypeScale& type, const Palette& palette);
+    Plot(const PlotRange& frame, const TypeScale& type, const Palette& palette);
 
     // Takes the first measure_rows rows of the frame's measures, as far as it has not taken them yet. Limits
     // only grow, and depend on the rows alone. A row without a value (NaN) leaves a gap.
@@ -93,7 +93,7 @@ class Plot final : public SidePlot {
     void draw_axes();
     void draw_curve(cairo_t* on) const;
 
-    const PlotFrame frame_;
+    const PlotRange frame_;
     const TypeScale type_;
     const Palette palette_;
     double left_, right_, top_, bottom_;  // pixels, of the box

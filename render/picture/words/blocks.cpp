@@ -170,7 +170,7 @@ TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* 
     return {side, side + writer.type.gap};
 }
 
-TextSize drive_block(const Writer& writer, const FilmedScene& scene, const Frame* frame, double x, double y) {
+TextSize drive_block(const Writer& writer, const FilmedScene& scene, const State* frame, double x, double y) {
     if (!scene.drive.present) return {};
     TextSize size;
     std::vector<std::string> lines;
@@ -196,14 +196,14 @@ TextSize exaggeration_block(const Writer& writer, const Film& film, double x, do
 
 namespace {
 
-std::int64_t count_in_tray(const Frame& frame) {
+std::int64_t count_in_tray(const State& frame) {
     const double floor = frame.floor().place.z();
     return std::count_if(frame.position.begin(), frame.position.end(),
                          [&](const Vec3& at) { return at.z() < floor; });
 }
 
 // The lines of the clock: the time first, then the lines below it.
-std::vector<std::string> clock_lines(const FilmedScene& scene, const Frame& frame) {
+std::vector<std::string> clock_lines(const FilmedScene& scene, const State& frame) {
     const WordKinds& kinds = scene.film.word_kinds;
     std::vector<std::string> lines;
     const bool known = !std::isnan(frame.time);
@@ -223,11 +223,11 @@ std::vector<std::string> clock_lines(const FilmedScene& scene, const Frame& fram
 
 }  // namespace
 
-std::string clock_words(const FilmedScene& scene, const Frame& frame) {
+std::string clock_words(const FilmedScene& scene, const State& frame) {
     return fmt::format("{}", fmt::join(clock_lines(scene, frame), "\n"));
 }
 
-TextSize clock_block(const Writer& writer, const FilmedScene& scene, const Frame& frame, double x, double y) {
+TextSize clock_block(const Writer& writer, const FilmedScene& scene, const State& frame, double x, double y) {
     TextSize size;
     for (const std::string& line : clock_lines(scene, frame)) {
         const bool time = size.height == 0 && scene.film.word_kinds.time && !std::isnan(frame.time);
@@ -252,7 +252,7 @@ namespace {
 
 // The floor's displacement from the middle of its stroke, in amplitudes. If a drive without a ramp starts in
 // the middle of a period, that middle is not the rest position.
-double share_of_stroke(const Drive& drive, const DriveSchedule::Now& now, const Frame& frame) {
+double share_of_stroke(const Drive& drive, const DriveSchedule::Now& now, const State& frame) {
     if (now.amplitude <= 0) return 0;
     const double place = frame.floor().place.dot(drive.direction) / now.amplitude;
     if (now.kind == DriveStage::Kind::taps) return place - 1;  // taps count from the lower end of the stroke
@@ -343,7 +343,7 @@ void draw_still_part(const Writer& writer, const Dial& dial, const Pen& pen) {
 
 }  // namespace
 
-TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
+TextSize dial_block(const Writer& writer, const Drive& drive, const State* frame, double radius, double x,
                     double y, const View* view) {
     const Dial dial(writer, drive, radius, view);
     const TextSize size = dial.size(writer.type);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/picture.hpp"
@@ -81,20 +81,20 @@ TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View
 TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
 // f, Gamma and amplitude of the drive, and by how much its motion is exaggerated. frame: null to measure the
 // longest lines.
-TextSize drive_block(const Writer& writer, const FilmedScene& scene, const Frame* frame, double x, double y);
+TextSize drive_block(const Writer& writer, const FilmedScene& scene, const State* frame, double x, double y);
 // Says only by how much the motion is exaggerated.
 TextSize exaggeration_block(const Writer& writer, const Film& film, double x, double y);
 // A dial whose hand turns once a period, and beside it the place of the floor in its stroke. Without a frame
 // only what stands still is drawn. view: tells right from left for a drive that goes sideways; null: seen
 // along -x.
-TextSize dial_block(const Writer& writer, const Drive& drive, const Frame* frame, double radius, double x,
+TextSize dial_block(const Writer& writer, const Drive& drive, const State* frame, double radius, double x,
                     double y, const View* view = nullptr);
 // The scene's own words. Each of their lines may take up to `most` lines of the gutter.
 TextSize note_block(const Writer& writer, const std::string& text, double x, double y, double wrap, int most);
 // All words that clock_block() would write.
-std::string clock_words(const FilmedScene& scene, const Frame& frame);
+std::string clock_words(const FilmedScene& scene, const State& frame);
 // The time and, with a drive, the cycle; with a tray also how many grains lie in it.
-TextSize clock_block(const Writer& writer, const FilmedScene& scene, const Frame& frame, double x, double y);
+TextSize clock_block(const Writer& writer, const FilmedScene& scene, const State& frame, double x, double y);
 
 // The words in the first gutter, which stands at the left or above the container. They say what is seen and
 // how large it is.

@@ -63,7 +63,7 @@ std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravi
 
 }  // namespace
 
-std::vector<std::string> drive_lines(const FilmedScene& scene, const Frame& frame) {
+std::vector<std::string> drive_lines(const FilmedScene& scene, const State& frame) {
     const double cycles = frame.time < 0 ? -1 : std::max(0.0, frame.cycles);
     const double share = grown_share(scene.drive, cycles);
     const DriveSchedule::Now now = drive_now(scene.drive, std::max(0.0, cycles));
@@ -129,7 +129,7 @@ double round_length(double longest) {
     return decade;
 }
 
-ShownCycle shown_cycle(const Frame& frame) {
+ShownCycle shown_cycle(const State& frame) {
     // Frames of slow motion lie at whole steps, often just before the end of a period. The cycle is counted
     // by the rounded phase.
     const double rounded = std::round(100 * frame.phase) / 100;
@@ -137,7 +137,7 @@ ShownCycle shown_cycle(const Frame& frame) {
     return {std::max(0LL, static_cast<long long>(std::floor(cycles + 1e-6))), rounded < 1 ? rounded : 0};
 }
 
-std::string playback_text(const Film& film, const Frame& frame, const std::string& playback) {
+std::string playback_text(const Film& film, const State& frame, const std::string& playback) {
     if (!film.word_kinds.playback) return "";
     if (!(frame.time < 0)) return playback;  // time is NaN where it is not known
     return playback.empty() ? "settling, drive off" : "settling, drive off; " + playback;

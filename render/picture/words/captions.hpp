@@ -24,7 +24,7 @@ std::string diameter_text(const SizeSpread& diameter);
 double round_length(double longest);
 // Lines that say what the drive does in a frame: f, Gamma and amplitude. While the drive grows or goes from
 // one stage to another, these are the values of the moment.
-std::vector<std::string> drive_lines(const FilmedScene& scene, const Frame& frame);
+std::vector<std::string> drive_lines(const FilmedScene& scene, const State& frame);
 // Whether these lines differ from frame to frame.
 bool drive_lines_change(const Drive& drive);
 // As many lines as drive_lines() gives at most in the course of the film, each about as long as it gets.
@@ -35,10 +35,10 @@ struct ShownCycle {
     long long cycle;
     double phase;
 };
-ShownCycle shown_cycle(const Frame& frame);
+ShownCycle shown_cycle(const State& frame);
 // The caption of time. While the grains still settle, it also says this. Empty where the film does not show
 // it.
-std::string playback_text(const Film& film, const Frame& frame, const std::string& playback);
+std::string playback_text(const Film& film, const State& frame, const std::string& playback);
 // What has flowed out, the scene's own words (film.text, with the latest values of measures), and the caption
 // shown at this time. longest_notes() gives texts about as long as these get: one for each caption, or a
 // single one if there are no captions.

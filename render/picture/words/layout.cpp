@@ -21,8 +21,8 @@ int whole(double pixels) {
 
 }  // namespace
 
-Frame widest_frame() {
-    Frame frame;
+State widest_frame() {
+    State frame;
     frame.time = 888.888;
     frame.cycles = 88888;
     frame.phase = 0.88;

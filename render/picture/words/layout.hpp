@@ -2,14 +2,14 @@
 // so it includes nothing of Cairo.
 #pragma once
 
-#include "engine/frame.hpp"
+#include "engine/state/state.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 
 // A frame whose words are as long as words get.
-Frame widest_frame();
+State widest_frame();
 
 // The layout that film.words asks for. Gutters are as wide as their words need, and at most about a third of
 // the picture each. They lie left and right, or above and below, whichever leaves the container larger. Words

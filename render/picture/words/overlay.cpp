@@ -189,7 +189,7 @@ bool overlap(const Rectangle& a, const Rectangle& b) {
     return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-std::optional<Placed> placed(const FilmLabel& label, const Frame& frame, const View& view,
+std::optional<Placed> placed(const FilmLabel& label, const State& frame, const View& view,
                              const TextStyle& style, double gap) {
     const std::optional<std::size_t> row = frame.row_of(label.id);
     if (!row) return std::nullopt;
@@ -214,7 +214,7 @@ std::optional<Placed> placed(const FilmLabel& label, const Frame& frame, const V
 
 }  // namespace
 
-void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view,
+void draw_grain_labels(const FilmedScene& scene, const State& frame, const View& view,
                        const PictureLayout& layout, const Palette& palette, Picture& picture,
                        std::vector<char>& found) {
     const TypeScale& type = layout.type;

@@ -66,7 +66,7 @@ class Overlay {
 // line to it. Draws the labels of a frame. A label whose grain is not there or lies outside the view is left
 // out. A label that would lie over another moves down below it. found: for each label, 1 if its grain has
 // been in a frame; this frame is counted.
-void draw_grain_labels(const FilmedScene& scene, const Frame& frame, const View& view,
+void draw_grain_labels(const FilmedScene& scene, const State& frame, const View& view,
                        const PictureLayout& layout, const Palette& palette, Picture& picture,
                        std::vector<char>& found);
 

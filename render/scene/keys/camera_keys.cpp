@@ -25,7 +25,7 @@ const char* beside_position(const Camera& camera) {
 
 const char* without_reach(const Camera& camera) {
     if (const char* reason = beside_position(camera)) return reason;
-    return camera.frame != CameraFrame::reach ? "'frame' does not ask how high the grains get" : nullptr;
+    return camera.frame != FramingScope::reach ? "'frame' does not ask how high the grains get" : nullptr;
 }
 
 const char* without_orbit(const Camera& camera) {

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
+#include "engine/files/frames/state_writer.hpp"
 #include "engine/scene/output.hpp"
 #include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"
@@ -48,7 +48,7 @@ class Also : public testing::Test {
         const auto wanted = open_frames(here / "run"), found = open_frames(here / "run" / "also" / inside);
         ASSERT_EQ(found->moments().size(), wanted->moments().size());
         const std::size_t last = wanted->moments().size() - 1;
-        const Frame a = wanted->grains(last), b = found->grains(last);
+        const State a = wanted->grains(last), b = found->grains(last);
         ASSERT_EQ(a.id, b.id);
         for (std::size_t i = 0; i < a.size(); ++i)
             ASSERT_LT((a.position[i] - b.position[i]).norm(), 1e-8) << a.id[i];  // floats of 0.1 m
@@ -70,7 +70,7 @@ class Also : public testing::Test {
 
 TEST(AlsoFormats, AreThoseThatAreWritten) {
     std::vector<std::string> listed(kAlsoFormats.begin(), kAlsoFormats.end()), written{};
-    for (const FrameFormat& format : frame_formats())
+    for (const WriteFormat& format : frame_formats())
         if (std::string(format.name) != "grain-table") written.emplace_back(format.name);  // final.csv
     EXPECT_THAT(listed, testing::UnorderedElementsAreArray(written));
 }

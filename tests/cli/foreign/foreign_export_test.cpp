@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/files/frames/frame_writer.hpp"
 #include "engine/files/frames/open_frames.hpp"
+#include "engine/files/frames/state_writer.hpp"
 #include "tests/cli/foreign/foreign_bed.hpp"
 #include "tests/support/small_scene.hpp"
 
@@ -33,7 +33,7 @@ class ForeignExport : public ForeignBed {
 };
 
 // Compares grains by their ids, to the precision (m) of the format.
-void expect_same_grains(const Frame& a, const Frame& b, double precision) {
+void expect_same_grains(const State& a, const State& b, double precision) {
     ASSERT_EQ(a.id, b.id);
     EXPECT_EQ(a.species, b.species);
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -43,14 +43,14 @@ void expect_same_grains(const Frame& a, const Frame& b, double precision) {
 }
 
 TEST_F(ForeignExport, WritesEachFormat) {
-    for (const FrameFormat& format : frame_formats()) {
+    for (const WriteFormat& format : frame_formats()) {
         const fs::path made = exported("bed.dump", format.name);
         EXPECT_TRUE(fs::exists(made)) << format.name;
     }
 }
 
 TEST_F(ForeignExport, WhatIsReadBackHasTheSameGrains) {
-    FrameRequest request;
+    OpenRequest request;
     request.reading.time_step = kForeignStep;
     const auto wanted = open_frames(here / "bed.dump", request);
     // Floats of some centimetres are exact to 4e-9 m.
@@ -61,7 +61,7 @@ TEST_F(ForeignExport, WhatIsReadBackHasTheSameGrains) {
         SCOPED_TRACE(format);
         fs::path made = exported("bed.dump", format);
         if (format == "vtk") made /= "grains.pvd";
-        const auto found = open_frames(made, format == "lammps-dump" ? request : FrameRequest());
+        const auto found = open_frames(made, format == "lammps-dump" ? request : OpenRequest());
         ASSERT_EQ(found->moments().size(), wanted->moments().size());
         for (std::size_t k = 0; k < wanted->moments().size(); ++k)
             expect_same_grains(wanted->grains(k), found->grains(k), precision);
@@ -99,11 +99,11 @@ TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
         const auto found = open_frames(*one.inside == '\0' ? made : made / one.inside);
         ASSERT_EQ(found->moments().size(), wanted->moments().size());
         for (std::size_t k = 0; k < wanted->moments().size(); ++k) {
-            const Frame a = wanted->grains(k), b = found->grains(k);
+            const State a = wanted->grains(k), b = found->grains(k);
             ASSERT_EQ(a.id, b.id);
             EXPECT_NEAR(b.time, a.time, 1e-12);
             for (std::size_t i = 0; i < a.size(); ++i) {
-                const auto species = [&](const FrameArchive& archive, const Frame& frame) {
+                const auto species = [&](const StateArchive& archive, const State& frame) {
                     return archive.world().species.at(static_cast<std::size_t>(frame.species[i])).name;
                 };
                 if (one.names) {
@@ -128,10 +128,10 @@ TEST_F(ForeignExport, ARunOfOursComesBackAsItWas) {
 // The section Atoms of atom_style sphere has id, type, diameter, density, x, y, z (LAMMPS, read_data).
 TEST_F(ForeignExport, ADataFileOfLammpsHasTheLastFrame) {
     const fs::path made = exported("bed.dump", "lammps-data");
-    FrameRequest request;
+    OpenRequest request;
     request.reading.time_step = kForeignStep;
     const auto frames = open_frames(here / "bed.dump", request);
-    const Frame last = frames->grains(frames->moments().size() - 1);
+    const State last = frames->grains(frames->moments().size() - 1);
     std::ifstream file(made);
     std::string line;
     while (std::getline(file, line) && line != "Atoms # sphere") continue;

@@ -106,7 +106,7 @@ TEST_F(ForeignFilm, AWallIsWhereItsFilesHaveIt) {
     const auto frames = open_frames(import() / "trajectory.nc");
     ASSERT_EQ(frames->moments().size(), 4u);
     for (int k = 0; k < kForeignFrames; ++k) {
-        const Frame frame = frames->grains(static_cast<std::size_t>(k));
+        const State frame = frames->grains(static_cast<std::size_t>(k));
         const Quaternion turn(Eigen::AngleAxisd(k * kPaddleTurn, Vec3::UnitZ()));
         // The files have nine digits for lengths up to 0.03 m.
         EXPECT_NEAR(frame.body(kFirstPlaneBody).rotation.angularDistance(turn), 0, 1e-6) << k;
@@ -134,7 +134,7 @@ TEST_F(ForeignFilm, AContainerOfOursMovesByItsDrive) {
     const auto frames = open_frames(import() / "trajectory.nc");
     ASSERT_EQ(frames->moments().size(), 4u);
     for (std::size_t k = 0; k < 4; ++k) {
-        const Frame frame = frames->grains(k);
+        const State frame = frames->grains(k);
         const double phase = 2 * std::numbers::pi * 25 * 0.01 * static_cast<double>(k);
         EXPECT_NEAR(frame.container().place.z(), 0.001 * std::sin(phase), 1e-9) << k;
         EXPECT_NEAR(frame.position.back().z(), 0.005 + 0.001 * static_cast<double>(k), 1e-12) << k;

@@ -39,8 +39,8 @@ struct Cube {
                                                "cube.toml");
     Snapshot snapshot{scene, grains(), true, grains()};
 
-    static Frame grains() {
-        Frame frame;
+    static State grains() {
+        State frame;
         for (int i = 0; i < 125; ++i) {
             const int layer = i / 25;
             frame.id.push_back(i);
@@ -90,8 +90,8 @@ TEST(GrainColumns, SideGapsFollowAContainerThatMoves) {
     EXPECT_NEAR(cube.of("side_gap", 2), -0.001, 1e-12);  // at the left, y = -2 d
 }
 
-ContactForce push(std::int32_t first, std::int32_t second, const Vec3& normal, double force,
-                  const Vec3& tangential, double overlap) {
+DetailedContact push(std::int32_t first, std::int32_t second, const Vec3& normal, double force,
+                     const Vec3& tangential, double overlap) {
     return {first,        second,       normal, overlap,   force, tangential,
             {1e-6, 0, 0}, {0, 1e-6, 0}, 0.5,    {0, 0, 0}, r,     2e-7};
 }
@@ -150,7 +150,7 @@ TEST(GrainColumns, TellWhatTheyLack) {
 // Each quantity that can colour a grain is also a column, with the same numbers.
 TEST(GrainColumns, HaveAllColoursOfTheFilm) {
     Squeezed cube;
-    Frame before = cube.snapshot.frame;
+    State before = cube.snapshot.frame;
     for (Vec3& place : before.position) place -= Vec3(0.001, 0, 0.002);
     cube.snapshot.displacement = displacement_since(before, cube.snapshot.frame, 1, 0);
     Shot shot = cube.snapshot.frame;

@@ -44,8 +44,8 @@ FilmedScene two_species() {
 
 // A cubic lattice of 4 x 4 x 4 grains that touch, from the floor up. Grain 63, in an upper corner, is of the
 // other species. Layer k moves upwards at k cm/s.
-Frame lattice() {
-    Frame frame;
+State lattice() {
+    State frame;
     for (int i = 0; i < 64; ++i) {
         const int layer = i / 16;
         frame.id.push_back(i);
@@ -200,8 +200,8 @@ TEST(Questions, AProfileHasTheSolidFraction) {
 // A grain that is half a diameter up lies half in each of two bins. If the floor moves, heights are above it.
 TEST(Questions, TheSolidFractionCutsGrainsAtTheEdges) {
     Bed bed;
-    Frame& frame = bed.snapshot.frame;
-    frame = Frame();
+    State& frame = bed.snapshot.frame;
+    frame = State();
     frame.id = {0}, frame.species = {0}, frame.radius = {d / 2};
     frame.position = {Vec3(0, 0, d)}, frame.velocity = frame.spin = {Vec3(0, 0, 0)};
     const double half = std::numbers::pi / 12 * d * d * d, room = 0.016 * 0.016 * d;
@@ -242,8 +242,8 @@ TEST(Questions, ASliceHasTheCirclesOfALayer) {
 // between.
 TEST(Questions, ThePairDistributionOfALatticeHasItsShells) {
     Bed bed;
-    Frame& frame = bed.snapshot.frame;
-    frame = Frame();
+    State& frame = bed.snapshot.frame;
+    frame = State();
     const int side = 12;
     for (int i = 0; i < side * side * side; ++i) {
         frame.id.push_back(i);

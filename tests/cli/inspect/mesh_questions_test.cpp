@@ -30,8 +30,8 @@ Scene with_square() {
     return scene;
 }
 
-Frame with_vane_at(const Vec3& place, double angle) {
-    Frame frame;
+State with_vane_at(const Vec3& place, double angle) {
+    State frame;
     frame.bodies.push_back(
         {place, Quaternion(Eigen::AngleAxisd(angle, Vec3(0, 0, 1))), {0, 0, 0}, {0, 0, 0}});
     return frame;
@@ -41,7 +41,7 @@ Frame with_vane_at(const Vec3& place, double angle) {
 // 60 + y sin 60 = 0 relative to it.
 TEST(RayAndMesh, MeetWhereTheMeshIsNow) {
     const Scene scene = with_square();
-    const Frame frame = with_vane_at({5, 0, 0}, std::numbers::pi / 3);
+    const State frame = with_vane_at({5, 0, 0}, std::numbers::pi / 3);
     const Ray ray{{-3, 0.2, 0.5}, {2, 0, 0}};
     const std::vector<MeshOnRay> found = meshes_on(ray, scene, frame, {});
     ASSERT_EQ(found.size(), 1u);

@@ -175,7 +175,7 @@ TEST(StackedBed, HoldsAllGrainsInsideTheContainer) {
                               std::string("shape = \"box\"\nwidth = \"30 mm\"\ndepth = \"20 mm\"").size(),
                               "shape = \"cylinder\"\ndiameter = \"30 mm\""),
                       "fifty.toml");
-        const Frame bed = stacked_bed(scene);
+        const State bed = stacked_bed(scene);
         ASSERT_EQ(bed.size(), 50u);
         EXPECT_EQ(std::count(bed.species.begin(), bed.species.end(), 1), 10);
         for (const Vec3& at : bed.position) {

@@ -79,7 +79,7 @@ std::string damaged(std::string bytes, std::mt19937& random) {
 }
 
 // Compares bit by bit, except for numbers that the file keeps as floats.
-bool same(const Frame& a, const Frame& b) {
+bool same(const State& a, const State& b) {
     const auto close = [](const Vec3& u, const Vec3& v) { return (u - v).norm() <= 1e-6 * v.norm(); };
     bool all = a.step == b.step && a.time == b.time && a.cycles == b.cycles && a.phase == b.phase &&
                a.bodies == b.bodies && a.id == b.id && a.species == b.species && a.radius == b.radius &&
@@ -136,7 +136,7 @@ TEST(Damage, AnEarlierVersionsFramesHoldOnlyWhatARunCanHave) {
             EXPECT_FALSE(reader.info().checksums);
             for (std::size_t i = 0; i < reader.frames(); ++i) {
                 try {
-                    const Frame frame = reader.read(i);
+                    const State frame = reader.read(i);
                     EXPECT_LE(frame.size(), std::size_t{grains});
                     for (std::size_t g = 0; g < frame.size(); ++g) {
                         EXPECT_TRUE(frame.species[g] >= 0 && frame.species[g] < 3) << trial;
@@ -166,7 +166,7 @@ TEST(Damage, NoContactIsReadThatWasNotWritten) {
             if (reader.cut_off() || reader.uncounted() > 0 || !reader.has_checksums())
                 continue;  // the program reports the damage
             for (int i = 0; i < frames; ++i) {
-                const std::vector<Touch> touches = reader.touches(static_cast<std::size_t>(i));
+                const std::vector<Link> touches = reader.touches(static_cast<std::size_t>(i));
                 const std::vector<SavedContact> wanted = made_contacts(i);
                 ASSERT_EQ(touches.size(), wanted.size()) << trial;
                 for (std::size_t k = 0; k < touches.size(); ++k)

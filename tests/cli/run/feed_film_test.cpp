@@ -26,7 +26,7 @@ TEST(FeedFilm, HasRoomForAllAndIsDrawnAgain) {
     EXPECT_EQ(reader.read(0).size(), 50u);
     // The last frame of the trajectory is the run's end; the last look at the feed was up to 200 steps
     // before.
-    const Frame last = reader.read(reader.frames() - 1);
+    const State last = reader.read(reader.frames() - 1);
     EXPECT_GE(last.size(), 69u);
     EXPECT_EQ(last.id.back(), static_cast<std::int32_t>(last.size()) - 1);
     const test::Ended again = program({"render", "run", "--out", "again"});

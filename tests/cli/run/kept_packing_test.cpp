@@ -18,7 +18,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/driver/packing_cache.hpp"
 #include "engine/run/driver/run_driver.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
@@ -74,7 +74,7 @@ struct End {
     bool operator==(const End&) const = default;
 };
 
-End end_of(Simulation& run, std::int64_t steps) {
+End end_of(SimulatedBed& run, std::int64_t steps) {
     run.advance(steps);
     End end{run.state_hash(), {}};
     const std::vector<double> values = run.measures().values();
@@ -89,7 +89,7 @@ TEST(KeptPacking, RunsOnBitByBit) {
     for (const Variant& variant : variants) {
         const Scene scene = scene_with(variant.sets, variant.more);
         const Plan plan = make_plan(scene);
-        Simulation packs(scene, plan, 1);
+        SimulatedBed packs(scene, plan, 1);
         const std::string key = packs.packing_key();
         ASSERT_FALSE(key.empty()) << variant.name;
         const PackingResult result = packs.pack();
@@ -99,7 +99,7 @@ TEST(KeptPacking, RunsOnBitByBit) {
         const End end = end_of(packs, 300);
         for (const int threads : {1, 2, 3}) {
             PackingResult found;
-            auto takes = Simulation::with_packing(scene, plan, file, key, threads, found);
+            auto takes = SimulatedBed::with_packing(scene, plan, file, key, threads, found);
             ASSERT_TRUE(takes) << variant.name;
             EXPECT_EQ(takes->step(), 0);
             EXPECT_EQ(takes->state_hash(), start) << variant.name;
@@ -115,7 +115,7 @@ TEST(KeptPacking, RunsOnBitByBit) {
 
 std::string key_with(std::vector<std::string> sets) {
     const Scene scene = scene_with(std::move(sets));
-    return Simulation(scene, make_plan(scene), 1).packing_key();
+    return SimulatedBed(scene, make_plan(scene), 1).packing_key();
 }
 
 TEST(KeptPacking, IsTheSameWhateverTheRunShowsAndHowLongItIs) {
@@ -154,26 +154,26 @@ TEST(KeptPacking, IsSharedByDrivesWhereNothingOfThePackingFollowsThem) {
     two.emplace_back("drive.g_level=2"), four.emplace_back("drive.g_level=4");
     const Scene one = scene_with(two), other = scene_with(four);
     const Plan plan = make_plan(one), other_plan = make_plan(other);
-    Simulation packs(one, plan, 1), packs_too(other, other_plan, 1);
+    SimulatedBed packs(one, plan, 1), packs_too(other, other_plan, 1);
     const std::string both = packs.packing_key();
     packs.save_packing(here / "one.grs", both, packs.pack());
     packs_too.pack();
     PackingResult found;
-    auto takes = Simulation::with_packing(other, other_plan, here / "one.grs", both, 1, found);
+    auto takes = SimulatedBed::with_packing(other, other_plan, here / "one.grs", both, 1, found);
     ASSERT_TRUE(takes);
     EXPECT_EQ(end_of(*takes, 300), end_of(packs_too, 300));
 }
 
 TEST(KeptPacking, IsNotOfWhatPacksNothing) {
     const Scene scene = read_scene_text(fed_scene_text, "fed.toml", {}, measurable_in);
-    EXPECT_EQ(Simulation(scene, make_plan(scene), 1).packing_key(), "");
+    EXPECT_EQ(SimulatedBed(scene, make_plan(scene), 1).packing_key(), "");
 }
 
 TEST(KeptPacking, IsBelievedInNothing) {
     const TemporaryFolder here;
     const Scene scene = scene_with({});
     const Plan plan = make_plan(scene);
-    Simulation packs(scene, plan, 1);
+    SimulatedBed packs(scene, plan, 1);
     const std::string key = packs.packing_key();
     const fs::path file = here / "packing.grs";
     packs.save_packing(file, key, packs.pack());
@@ -181,7 +181,7 @@ TEST(KeptPacking, IsBelievedInNothing) {
     const auto is_taken = [&](const std::string& bytes, const std::string& under) {
         write_text(file, bytes);
         PackingResult found;
-        return Simulation::with_packing(scene, plan, file, under, 1, found).has_value();
+        return SimulatedBed::with_packing(scene, plan, file, under, 1, found).has_value();
     };
     EXPECT_TRUE(is_taken(good, key));
     EXPECT_FALSE(is_taken(good, key + " "));

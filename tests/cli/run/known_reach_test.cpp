@@ -8,7 +8,7 @@ namespace {
 
 // One in a hundred of 200 grains is two: the two highest grains do not count, and the third does.
 TEST(KnownReach, LeavesOutOneGrainInAHundred) {
-    Frame frame;
+    State frame;
     for (int k = 0; k < 200; ++k) {
         frame.id.push_back(k);
         frame.radius.push_back(0.002);
@@ -20,7 +20,7 @@ TEST(KnownReach, LeavesOutOneGrainInAHundred) {
 }
 
 TEST(KnownReach, OfFewGrainsIsAllOfThem) {
-    Frame frame;
+    State frame;
     EXPECT_FALSE(reach_of(frame));
     frame.id = {0};
     frame.radius = {0.01};

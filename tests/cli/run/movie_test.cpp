@@ -83,9 +83,9 @@ TEST_F(MovieProgram, WritesTheFilmAndTheNumbers) {
     EXPECT_EQ(trajectory.read(1).step, plan.trajectory_every);
 
     EXPECT_EQ(lines_of(run / "measures.csv"), 1 + plan.steps / std::llround(plan.measures_every) + 1);
-    const Frame end = read_grain_table(run / "final.csv");
+    const State end = read_grain_table(run / "final.csv");
     EXPECT_EQ(end.size(), 50u);
-    const Frame last = trajectory.read(trajectory.frames() - 1);
+    const State last = trajectory.read(trajectory.frames() - 1);
     ASSERT_EQ(last.step, plan.steps);
     EXPECT_EQ(end.position, last.position);
     EXPECT_TRUE(fs::exists(run / "checkpoint.grs"));

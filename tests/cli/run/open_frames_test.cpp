@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/frame_writer.hpp"
+#include "engine/files/frames/state_writer.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/questions/asked_moment.hpp"
 #include "engine/questions/questions.hpp"
@@ -29,7 +29,7 @@ using namespace test;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-void expect_same_grains(const Frame& is, const Frame& wanted) {
+void expect_same_grains(const State& is, const State& wanted) {
     EXPECT_EQ(is.id, wanted.id);
     EXPECT_EQ(is.species, wanted.species);
     EXPECT_EQ(is.radius, wanted.radius);
@@ -41,7 +41,7 @@ void expect_same_grains(const Frame& is, const Frame& wanted) {
         EXPECT_EQ(is.orientation[i].coeffs(), wanted.orientation[i].coeffs());
 }
 
-std::vector<std::string> names_of(const World& world) {
+std::vector<std::string> names_of(const StoredWorld& world) {
     std::vector<std::string> names;
     for (const WorldSpecies& species : world.species) names.push_back(species.name);
     return names;
@@ -121,8 +121,8 @@ TEST_F(OpenFrames, OfATableOfGrainsByItsContent) {
 TEST_F(OpenFrames, OfACheckpointAreThoseOfTheRunThatItRestores) {
     const auto frames = open_frames(copied("checkpoint.grs", "state.csv"));
     EXPECT_STREQ(reader_of(here / "state.csv")->name, "checkpoint");
-    const Simulation restored = run_of_checkpoint(run() / "checkpoint.grs", 1);
-    const Frame is = frames->grains(0), wanted = restored.frame();
+    const SimulatedBed restored = run_of_checkpoint(run() / "checkpoint.grs", 1);
+    const State is = frames->grains(0), wanted = restored.frame();
     expect_same_grains(is, wanted);
     EXPECT_EQ(is.step, wanted.step);
     EXPECT_EQ(is.time, wanted.time);
@@ -142,7 +142,7 @@ TEST_F(OpenFrames, RefusesWhatItDoesNotKnowWithAListOfWhatItReads) {
             FAIL() << name;
         } catch (const UserError& mistake) {
             EXPECT_THAT(mistake.what(), HasSubstr((here / name).string()));
-            for (const FrameReader& reader : frame_readers())
+            for (const ReadFormat& reader : frame_readers())
                 EXPECT_THAT(mistake.what(), HasSubstr(reader.about)) << name;
         }
     }
@@ -179,11 +179,11 @@ TEST_F(OpenFrames, CountsAreBoundedBeforeMemoryIsAskedFor) {
 TEST(FrameWriters, ATableOfGrainsIsReadBackToTheLastBit) {
     const TemporaryFolder here;
     for (const bool orientation : {false, true}) {
-        const Frame wanted = made_frame(7, 3, orientation);
+        const State wanted = made_frame(7, 3, orientation);
         const auto writer = frame_writer("grain-table", here / "grains");
-        FrameSupply supply;
+        StateSupply supply;
         supply.orientations = orientation;
-        writer->begin(World(), supply);
+        writer->begin(StoredWorld(), supply);
         writer->frame(made_frame(5, 1, orientation), {});
         writer->frame(wanted, {});
         writer->end();
@@ -195,7 +195,7 @@ TEST(FrameWriters, ATableOfGrainsIsReadBackToTheLastBit) {
 
 TEST(FrameWriters, ATrajectoryKeepsItsWorld) {
     const TemporaryFolder here;
-    World world;
+    StoredWorld world;
     world.title = "made";
     world.species.resize(3);
     for (int s = 0; s < 3; ++s) {
@@ -214,7 +214,7 @@ TEST(FrameWriters, ATrajectoryKeepsItsWorld) {
     writer->end();
     const auto frames = open_frames(here / "moments");
     ASSERT_EQ(frames->moments().size(), 2u);
-    const Frame is = frames->grains(1), wanted = made_frame(9, 2);
+    const State is = frames->grains(1), wanted = made_frame(9, 2);
     EXPECT_EQ(is.id, wanted.id);
     EXPECT_EQ(is.species, wanted.species);
     EXPECT_EQ(is.position, wanted.position);  // velocities are floats there
@@ -232,12 +232,12 @@ TEST(FrameWriters, AnUnknownFormatIsRefusedWithAList) {
         frame_writer("hologram", "x");
         FAIL();
     } catch (const UserError& mistake) {
-        for (const FrameFormat& format : frame_formats()) EXPECT_THAT(mistake.what(), HasSubstr(format.name));
+        for (const WriteFormat& format : frame_formats()) EXPECT_THAT(mistake.what(), HasSubstr(format.name));
     }
 }
 
 // Frames as of another program: they have no scene, no density and no step.
-class Foreign final : public FrameArchive {
+class Foreign final : public StateArchive {
   public:
     Foreign() : path_("foreign.dump") {
         world_.species = {{"sand"}, {"clay"}, {"gravel"}};
@@ -247,15 +247,15 @@ class Foreign final : public FrameArchive {
         }
     }
     const fs::path& path() const override { return path_; }
-    const World& world() const override { return world_; }
-    FrameSupply supply() const override { return {}; }
-    const std::vector<Frame>& moments() const override { return moments_; }
-    Frame grains(std::size_t index) const override { return frames_.at(index); }
+    const StoredWorld& world() const override { return world_; }
+    StateSupply supply() const override { return {}; }
+    const std::vector<State>& moments() const override { return moments_; }
+    State grains(std::size_t index) const override { return frames_.at(index); }
 
   private:
     fs::path path_;
-    World world_;
-    std::vector<Frame> frames_, moments_;
+    StoredWorld world_;
+    std::vector<State> frames_, moments_;
 };
 
 TEST(FrameArchives, WithoutASceneAnswerQuestions) {

@@ -21,8 +21,8 @@ const Clock kClock{1e-4, 800, 0};  // 12.5 Hz
 using PlaceAt = std::function<Vec3(std::int64_t step)>;
 
 // A frame of one grain, and a container at the place `wall`.
-Frame frame_at(std::int64_t step, const Vec3& position, const Vec3& wall = Vec3::Zero()) {
-    Frame frame;
+State frame_at(std::int64_t step, const Vec3& position, const Vec3& wall = Vec3::Zero()) {
+    State frame;
     frame.step = step;
     frame.time = kClock.time(step);
     frame.id = {0};
@@ -38,9 +38,9 @@ Vec3 at_rest(std::int64_t) {
 
 // A source that has every moment from `first` on, as a record has.
 OtherMoments any_moment(PlaceAt grain, PlaceAt wall, std::int64_t first) {
-    return [=](std::int64_t step) -> FramePtr {
+    return [=](std::int64_t step) -> StatePtr {
         if (step < first) return nullptr;
-        return std::make_shared<const Frame>(frame_at(step, grain(step), wall(step)));
+        return std::make_shared<const State>(frame_at(step, grain(step), wall(step)));
     };
 }
 
@@ -69,7 +69,7 @@ Shot picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grain
              const PlaceAt& wall = at_rest, std::int64_t first = 0) {
     Shot at_will = frame_at(asked.shot, grain(asked.shot), wall(asked.shot)), passing = at_will;
     parts.add(at_will, asked.rule, asked.periods, {}, any_moment(grain, wall, first));
-    KeptMoments kept;
+    KeptStates kept;
     for (const int periods : {1, 2}) kept.want(asked.shot, parts.moments(asked.shot, asked.rule, periods));
     for (std::int64_t step = first; step <= asked.shot; ++step)
         kept.keep(frame_at(step, grain(step), wall(step)));
@@ -82,9 +82,9 @@ Shot picture(const PictureParts& parts, const Asked& asked, const PlaceAt& grain
     return at_will;
 }
 
-std::vector<std::int64_t> steps_of(const std::vector<WantedMoment>& moments) {
+std::vector<std::int64_t> steps_of(const std::vector<WantedState>& moments) {
     std::vector<std::int64_t> steps;
-    for (const WantedMoment& moment : moments) steps.push_back(moment.step);
+    for (const WantedState& moment : moments) steps.push_back(moment.step);
     return steps;
 }
 
@@ -225,14 +225,14 @@ TEST(PictureParts, LeaveOutWhatIsNotToBeHad) {
 // A grain that came or left meanwhile has no displacement. Grains that were there all the time have theirs.
 TEST(PictureParts, LeaveOutWaysOfGrainsThatHaveComeOrGone) {
     const PictureParts parts(scene_with_displacements(), kClock, 0);
-    const auto with = [](Frame frame, std::int32_t id, const Vec3& at) {
+    const auto with = [](State frame, std::int32_t id, const Vec3& at) {
         frame.id.push_back(id);
         frame.position.push_back(at);
         frame.velocity.emplace_back(0, 0, 0);
         return frame;
     };
     const OtherMoments before = [&](std::int64_t step) {
-        return std::make_shared<const Frame>(with(frame_at(step, Vec3(0, 0, 1)), 1, Vec3(7, 8, 9)));
+        return std::make_shared<const State>(with(frame_at(step, Vec3(0, 0, 1)), 1, Vec3(7, 8, 9)));
     };
     Shot now = with(frame_at(1600, Vec3(0, 0, 3)), 2, Vec3(4, 5, 6));
     parts.add(now, mean_of(1), 1, {}, before);
@@ -245,7 +245,7 @@ TEST(PictureParts, LeaveOutWaysOfGrainsThatHaveComeOrGone) {
 }
 
 TEST(KeptMoments, AreKeptUntilTheLastPictureThatWantsThem) {
-    KeptMoments kept;
+    KeptStates kept;
     kept.want(40, {{10, true}, {20, false}});
     kept.want(50, {{20, true}, {30, false}});
     EXPECT_THAT(kept.steps(), testing::ElementsAre(10, 20, 30));

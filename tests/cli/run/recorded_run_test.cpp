@@ -149,7 +149,7 @@ TEST_F(Recorded, MeasuresThatAreMissingOrEmptyAreNamed) {
 TEST_F(Recorded, GivesItsFramesInAnyOrder) {
     run("run", {"film.colour.by=displacement", "film.force_chains=true", "film.text=mixing {lacey}"});
     StoredShots film(here / "run", {}, false);
-    const FrameArchive& archive = film.run();
+    const StateArchive& archive = film.run();
     EXPECT_FALSE(film.has_any_moment());
     EXPECT_TRUE(archive.supply().contacts && archive.supply().measures && !archive.supply().orientations);
     ASSERT_EQ(archive.moments().size(), 5u);  // 0.2 s at 20 Hz
@@ -174,7 +174,7 @@ TEST_F(Recorded, GivesItsFramesInAnyOrder) {
     EXPECT_FALSE(last.touches.empty());
     EXPECT_EQ(last.measure_rows, 4u * 8 + 1);  // eight a period
     EXPECT_EQ(first.measure_rows, 1u);
-    const Frame before = archive.grains(3);
+    const State before = archive.grains(3);
     EXPECT_EQ(archive.grains(4).position, last.position);
     EXPECT_EQ(last.displacement[7], (last.position[7] - before.position[7]).eval());
 
@@ -201,7 +201,7 @@ TEST_F(Recorded, GivesMeansAndExposuresWhereItHasTheirMoments) {
     record.start({{{0.15, 1}, {0.2, 0}}, {mean, exposed}, false});
     const auto go_on = [] { return true; };
     const Shot four = *record.next(go_on)->frame, averaged = *record.next(go_on)->frame;
-    const FrameArchive& archive = record.run();
+    const StateArchive& archive = record.run();
     const std::size_t at = archive.nearest(0.2);
     Vec3 expected = Vec3::Zero();
     for (std::size_t k = 0; k < 16; ++k) expected += archive.grains(at - k).position[7] / 16;

@@ -19,7 +19,7 @@
 #include "engine/run/folder/listener.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/verbs/report.hpp"
-#include "render/film/run/movie_run.hpp"
+#include "render/film/run/movie_job.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/film_length.hpp"
 #include "tests/cli/program.hpp"
@@ -335,7 +335,7 @@ TEST_F(ResumedRun, OneThatWasStoppedJustAfterPackingGoesOn) {
     request.program = program_info();  // files name it
     StoppedAtOnce listener;
     {
-        MovieRun stopped(request, listener, made, plan_with_film(made));
+        MovieJob stopped(request, listener, made, plan_with_film(made));
         EXPECT_EQ(stopped.run().exit_status, 130);
     }
     EXPECT_EQ(record("run")["status"], "interrupted");

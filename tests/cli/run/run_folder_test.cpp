@@ -18,7 +18,7 @@ using test::tells_only;
 using test::TemporaryFolder, test::text_of, test::write_text;
 using testing::HasSubstr;
 
-std::string message_of(const RunFolderRequest& request) {
+std::string message_of(const FolderRequest& request) {
     try {
         RunFolder folder(request);
     } catch (const UserError& error) {

@@ -211,7 +211,7 @@ TEST_F(StoppedMovie, KilledLeavesAReadableTrajectoryAndFilm) {
     EXPECT_GE(decoded_pictures(here / "run/movie.mp4"), 30);
     const TrajectoryReader trajectory(here / "run/trajectory.nc");
     ASSERT_GE(trajectory.frames(), 2u);
-    const Frame last = trajectory.read(trajectory.frames() - 1);
+    const State last = trajectory.read(trajectory.frames() - 1);
     EXPECT_EQ(last.size(), 50u);
     for (const Vec3& position : last.position) EXPECT_TRUE(position.allFinite());
 }
@@ -246,7 +246,7 @@ TEST_F(StoppedMovie, AFullDiskEndsTheRunAndKeepsTheFramesBefore) {
     EXPECT_EQ(trajectory.frames(), record()["written"]["trajectory_frames"].get<std::size_t>());
     double time = -1;
     for (std::size_t i = 0; i < trajectory.frames(); ++i) {
-        const Frame frame = trajectory.read(i);
+        const State frame = trajectory.read(i);
         EXPECT_EQ(frame.size(), 50u);
         EXPECT_GT(frame.time, time);
         time = frame.time;

@@ -8,7 +8,7 @@
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/driver/run_files.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "render/film/codec/png.hpp"
 #include "render/picture/base/shot.hpp"
 #include "render/picture/whole/renderer.hpp"
@@ -33,7 +33,7 @@ FilmedScene sink_scene(const std::vector<std::string>& more = {}) {
 struct Sink {
     FilmedScene scene;
     Plan plan = plan_of(scene);
-    Simulation simulation;
+    SimulatedBed simulation;
 
     explicit Sink(const FilmedScene& of, int threads = 1) : scene(of), simulation(scene, plan, threads) {
         simulation.pack();
@@ -45,7 +45,7 @@ struct Sink {
         return plan;
     }
     void rain(int number) {
-        std::vector<NewGrain> pair;
+        std::vector<ComingGrain> pair;
         for (const double x : {-0.005, 0.005})
             pair.push_back({0, 0.002, scene.species[0].density, Vec3(x, -0.01 + 0.001 * number, 0.036),
                             Vec3(0, 0, -0.2), Vec3(0, 0, 0)});
@@ -57,7 +57,7 @@ TEST(TrafficFilm, FilesHaveWhoIsThere) {
     const TemporaryFolder here;
     Sink sink(sink_scene());
     RunFiles files(here.path(), sink.scene, sink.plan, sink.simulation, "test", false);
-    std::vector<Frame> frames;
+    std::vector<State> frames;
     std::vector<Measures> measures;
     const std::int64_t every = sink.plan.steps / 20;
     for (int i = 0; i < 20; ++i) {
@@ -79,7 +79,7 @@ TEST(TrafficFilm, FilesHaveWhoIsThere) {
     ASSERT_EQ(reader.frames(), frames.size());
     std::set<std::int32_t> gone, all;
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const Frame frame = reader.read(i);
+        const State frame = reader.read(i);
         EXPECT_EQ(frame.id, frames[i].id) << i;
         EXPECT_EQ(frame.position, frames[i].position) << i;
         EXPECT_EQ(frame.contact_number, frames[i].contact_number) << i;
@@ -119,7 +119,7 @@ TEST(TrafficFilm, GoesOnFromItsCheckpoint) {
     scene.start.method = Start::Method::file;
     scene.start.file = (here / "c.grs").string();
     scene.start.keep_clock = true;
-    Simulation on(scene, whole.plan, 2);
+    SimulatedBed on(scene, whole.plan, 2);
     EXPECT_EQ(on.traffic().came, 2);
     on.pack();
     on.advance(2 * quarter);
@@ -127,7 +127,7 @@ TEST(TrafficFilm, GoesOnFromItsCheckpoint) {
     EXPECT_EQ(on.traffic().left, whole.simulation.traffic().left);
     // The run starts anew with the grains that are left, so the scene has to give their number.
     scene.start.keep_clock = false;
-    EXPECT_THROW(Simulation(scene, whole.plan, 1), UserError);
+    EXPECT_THROW(SimulatedBed(scene, whole.plan, 1), UserError);
 }
 
 // The bed's grains change; a picture has the colours, trails, chains and arrows of its own frame only.
@@ -137,7 +137,7 @@ TEST(TrafficFilm, PicturesShowWhoIsThere) {
                           "film.colour.by=\"displacement\""}));
     Renderer renderer(sink.scene, 1);
     const std::int64_t every = sink.plan.steps / 20;
-    Frame before = sink.simulation.frame();
+    State before = sink.simulation.frame();
     for (int i = 1; i <= 16; ++i) {
         sink.simulation.advance(i * every);
         if (i % 2 == 1) sink.rain(i / 2);

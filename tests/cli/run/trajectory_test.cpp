@@ -47,7 +47,7 @@ Vec3 as_floats(const Vec3& v) {
 }
 
 // Compares bit by bit, except for numbers that the file keeps as floats.
-void expect_same(const Frame& got, const Frame& wanted) {
+void expect_same(const State& got, const State& wanted) {
     EXPECT_EQ(got.step, wanted.step);
     EXPECT_EQ(got.time, wanted.time);
     EXPECT_EQ(got.cycles, wanted.cycles);
@@ -70,7 +70,7 @@ void expect_same(const Frame& got, const Frame& wanted) {
     }
 }
 
-Frame with_contact_numbers(Frame frame) {
+State with_contact_numbers(State frame) {
     for (std::size_t i = 0; i < frame.size(); ++i)
         frame.contact_number.push_back(static_cast<std::int32_t>(i * i));
     return frame;
@@ -125,7 +125,7 @@ TEST(Trajectory, SaysWhereAllBodiesAre) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(2);
     info.bodies = {"paddle", "sieve"};
-    Frame frame = made_frame(2, 1);
+    State frame = made_frame(2, 1);
     for (const double seed : {5.1, 6.2})
         frame.bodies.push_back({vector_of(seed), Quaternion(seed, 1, -2, 0.3).normalized(),
                                 vector_of(2 * seed), vector_of(3 * seed)});
@@ -141,7 +141,7 @@ TEST(Trajectory, ABodyThatNoRunHasIsDamage) {
     TrajectoryInfo info = made_info(2);
     info.bodies = {"paddle"};
     const auto writes = [&](const BodyPose& pose) {
-        Frame frame = made_frame(2, 1);
+        State frame = made_frame(2, 1);
         frame.bodies.push_back(pose);
         TrajectoryWriter(here / "t.nc", info).write(frame);
         return TrajectoryReader(here / "t.nc");
@@ -160,7 +160,7 @@ std::vector<TrajectoryMesh> made_meshes() {
         {4, {{{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 1, 2}}, {{0, 1, 2}, {0, 2, 3}}}}};
 }
 
-Frame with_bodies(Frame frame, int bodies) {
+State with_bodies(State frame, int bodies) {
     for (int b = 0; b < bodies; ++b)
         frame.bodies.push_back({vector_of(b + 1), Quaternion(b + 1, 1, -2, 0.3).normalized(),
                                 vector_of(2 * b), vector_of(3 * b)});
@@ -206,7 +206,7 @@ TEST(Trajectory, SaysHowFarTheContainerHasTurned) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(2);
     info.container_turns = true;
-    Frame frame = made_frame(2, 1);
+    State frame = made_frame(2, 1);
     frame.container().rotation = Quaternion(1, 2, 3, 4).normalized();
     frame.floor().rotation = Quaternion(4, -3, 2, 1).normalized();
     frame.container().spin = {1, 2, 3}, frame.floor().spin = {-1, 0.5, 7};
@@ -267,8 +267,8 @@ TEST(Trajectory, GrainsMayComeAndGo) {
 }
 
 // A frame of grains with these ids, at places that no other frame has.
-Frame frame_with(const std::vector<std::int32_t>& ids, int number) {
-    Frame frame = made_frame(static_cast<int>(ids.size()), number, true);
+State frame_with(const std::vector<std::int32_t>& ids, int number) {
+    State frame = made_frame(static_cast<int>(ids.size()), number, true);
     frame.id = ids;
     for (std::size_t i = 0; i < ids.size(); ++i) {
         frame.species[i] = ids[i] % 3;
@@ -281,13 +281,13 @@ Frame frame_with(const std::vector<std::int32_t>& ids, int number) {
 // grain stands one in the container's lowest corner, too small to be seen.
 TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
     const TemporaryFolder here;
-    const std::vector<Frame> frames{frame_with({0, 1, 2, 5}, 0), frame_with({0, 2, 5}, 1),
+    const std::vector<State> frames{frame_with({0, 1, 2, 5}, 0), frame_with({0, 2, 5}, 1),
                                     frame_with({0, 5, 6}, 2), frame_with({}, 3), frame_with({8}, 4)};
     TrajectoryInfo info = made_info(6, true);
     info.traffic = true;
     {
         TrajectoryWriter writer(here / "t.nc", info);
-        for (const Frame& frame : frames) writer.write(frame);
+        for (const State& frame : frames) writer.write(frame);
         EXPECT_THROW(writer.write(frame_with({9}, 5)), RunError) << "a seventh grain";
     }
     const TrajectoryReader reader(here / "t.nc");
@@ -339,10 +339,10 @@ TEST(Trajectory, FilesOfEarlierVersionsAreRead) {
     const TemporaryFolder here;
     TrajectoryInfo info = made_info(4);
     info.traffic = true;
-    const std::vector<Frame> frames{frame_with({0, 1, 2}, 0), frame_with({0, 2}, 1)};
+    const std::vector<State> frames{frame_with({0, 1, 2}, 0), frame_with({0, 2}, 1)};
     {
         TrajectoryWriter writer(here / "t.nc", info);
-        for (Frame frame : frames) writer.write(frame);
+        for (State frame : frames) writer.write(frame);
     }
     int file = -1, variable = -1;
     ASSERT_EQ(nc_open((here / "t.nc").c_str(), NC_WRITE, &file), NC_NOERR);
@@ -362,7 +362,7 @@ TEST(Trajectory, FilesOfEarlierVersionsAreRead) {
     nc_close(file);
     const TrajectoryReader reader(here / "t.nc");
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        Frame wanted = frames[i];
+        State wanted = frames[i];
         wanted.orientation.clear();
         expect_same(reader.read(i), wanted);
     }
@@ -564,7 +564,7 @@ TEST(Trajectory, AFrameThatIsOnItsWayIsWaitedFor) {
 TEST(Trajectory, AMomentIsAFrameWithoutGrains) {
     const TemporaryFolder here;
     TrajectoryWriter(here / "t.nc", made_info(5)).write(made_frame(5, 4));
-    const Frame moment = TrajectoryReader(here / "t.nc").read_moment(0), wanted = made_frame(5, 4);
+    const State moment = TrajectoryReader(here / "t.nc").read_moment(0), wanted = made_frame(5, 4);
     EXPECT_EQ(moment.step, wanted.step);
     EXPECT_EQ(moment.time, wanted.time);
     EXPECT_EQ(moment.phase, wanted.phase);
@@ -683,7 +683,7 @@ TEST(ContactsFile, IsReadFrameByFrame) {
     }
     const ContactsReader reader(here / "c.nc");
     for (const int frame : {0, 2}) {
-        const std::vector<Touch> touches = reader.touches(static_cast<std::size_t>(frame));
+        const std::vector<Link> touches = reader.touches(static_cast<std::size_t>(frame));
         ASSERT_EQ(touches.size(), 2u);
         EXPECT_EQ(touches[0].first, frame);
         EXPECT_EQ(touches[0].second, 7);

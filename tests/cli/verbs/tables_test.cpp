@@ -40,11 +40,11 @@ void expect_same_bits(const Vec3& a, const Vec3& b) {
 
 TEST(GrainTable, ReadsBackBitByBit) {
     const TemporaryFolder here;
-    Frame frame = made_frame(9, 4, true);
+    State frame = made_frame(9, 4, true);
     frame.velocity[0] = {-0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max()};
     frame.position[1] = {0.1, 1.0 / 3, 5e-324};
     write_grain_table(here / "final.csv", frame);
-    const Frame back = read_grain_table(here / "final.csv");
+    const State back = read_grain_table(here / "final.csv");
     EXPECT_EQ(back.id, frame.id);
     EXPECT_EQ(back.species, frame.species);
     EXPECT_EQ(back.radius, frame.radius);
@@ -60,7 +60,7 @@ TEST(GrainTable, ReadsBackBitByBit) {
 // A spreadsheet's "CSV UTF-8" begins with a mark and ends its lines as on Windows.
 TEST(GrainTable, IsReadAsASpreadsheetSavesIt) {
     const TemporaryFolder here;
-    const Frame frame = made_frame(3, 4);
+    const State frame = made_frame(3, 4);
     write_grain_table(here / "final.csv", frame);
     std::string text = text_of(here / "final.csv");
     for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");

@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/random.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
@@ -39,14 +39,14 @@ Scene scene_of(std::vector<std::string> sets = {}) {
 const std::string kPeriodic = "container.periodic_depth=true", kDeeper = "container.depth=\"40 mm\"";
 const std::string kFullSettling = "start.settle_limit=\"5 s\"";
 
-Simulation packed(const Scene& scene, const Plan& plan, int threads) {
-    Simulation simulation(scene, plan, threads);
+SimulatedBed packed(const Scene& scene, const Plan& plan, int threads) {
+    SimulatedBed simulation(scene, plan, threads);
     simulation.pack();
     return simulation;
 }
 
 // Continues from a checkpoint of the same scene.
-Simulation gone_on(Scene scene, const Plan& plan, const std::filesystem::path& file, int threads) {
+SimulatedBed gone_on(Scene scene, const Plan& plan, const std::filesystem::path& file, int threads) {
     scene.start.method = Start::Method::file;
     scene.start.file = file.string();
     scene.start.keep_clock = true;
@@ -79,7 +79,7 @@ TEST(FreeSpace, IsWhatPlanesLeaveOfTheContainer) {
     const Container& box = scene.container;
     const double base = 2 * box.half_width * box.depth;
     EXPECT_EQ(FreeSpace(scene).volume(), box.volume());
-    FreeWall plane;
+    ScenePlane plane;
     plane.point = Vec3(0, 0, 0.02);
     scene.walls = {plane};
     EXPECT_NEAR(FreeSpace(scene).volume(), base * (box.height - 0.02), 1e-3 * box.volume());
@@ -115,7 +115,7 @@ TEST(Layers, PlacesAreDrawnInOneOrderOnEveryCompiler) {
 
 TEST(Layers, StartInFrontOfTheScenesOwnPlanes) {
     Scene scene = scene_of();
-    FreeWall plane;
+    ScenePlane plane;
     plane.point = Vec3(0, 0, 0.03);
     plane.normal = Vec3(0.1, 0.5, 1).normalized();
     scene.walls = {plane};
@@ -158,13 +158,13 @@ TEST(RadiusGrowth, EndsWithoutOverlapInsideTheAskedRange) {
 TEST(Settling, BringsTheBedToRestOnTheFloor) {
     const Scene scene = scene_of({kFullSettling});
     const Plan plan = make_plan(scene);
-    Simulation simulation(scene, plan, 1);
+    SimulatedBed simulation(scene, plan, 1);
     const PackingResult result = simulation.pack();
     EXPECT_TRUE(result.settled);
     EXPECT_EQ(simulation.step(), 0);
     // The walls carry the weight: the vertical force between grains and walls is the bed's weight.
     double weight = 0, carried = 0;
-    const Frame frame = simulation.frame();
+    const State frame = simulation.frame();
     for (std::size_t i = 0; i < frame.size(); ++i) weight += sphere_mass(frame.radius[i]) * 9.81;
     const auto faces = container_faces(scene.container, scene.drive);
     for (const auto& c : simulation.contacts()) {
@@ -176,7 +176,7 @@ TEST(Settling, BringsTheBedToRestOnTheFloor) {
 
 using Bodies = std::set<std::pair<std::int32_t, std::int32_t>>;  // ids, or -1 - face for the second
 
-Bodies reported_contacts(const Simulation& simulation) {
+Bodies reported_contacts(const SimulatedBed& simulation) {
     Bodies bodies;
     for (const auto& c : simulation.contacts())
         bodies.insert({c.second >= 0 ? std::max(c.first, c.second) : c.first,
@@ -185,7 +185,7 @@ Bodies reported_contacts(const Simulation& simulation) {
 }
 
 // The bodies that overlap and that spring and dashpot push apart.
-Bodies pushed_bodies(const Scene& scene, const Plan& plan, const Frame& f) {
+Bodies pushed_bodies(const Scene& scene, const Plan& plan, const State& f) {
     const double period = period_of_depth(scene.container);
     const std::vector<Face> faces = container_faces(scene.container, scene.drive);
     const auto push = [](const PairPlan& pair, double overlap, double closing_speed, double effective_mass) {
@@ -221,7 +221,7 @@ TEST(Contacts, AreThoseOfASearchOverAllPairs) {
         sets.insert(sets.end(), place.begin(), place.end());
         const Scene scene = scene_of(sets);
         const Plan plan = make_plan(scene);
-        Simulation simulation = packed(scene, plan, 2);
+        SimulatedBed simulation = packed(scene, plan, 2);
         simulation.advance(100);  // the floor has begun to push
         const Bodies reported = reported_contacts(simulation);
         EXPECT_GT(reported.size(), 50u);
@@ -274,7 +274,7 @@ TEST(Determinism, SameBitsOnAnyNumberOfThreads) {
         std::vector<SavedContact> contacts;
         std::pair<double, double> energies;
         for (const int threads : {1, 2, 3}) {
-            Simulation simulation = gone_on(scene, plan, packing, threads);
+            SimulatedBed simulation = gone_on(scene, plan, packing, threads);
             simulation.advance(plan.clock.steps_per_period);
             if (threads == 1) first = simulation.state_hash(), contacts = simulation.contacts();
             EXPECT_EQ(simulation.state_hash(), first) << law << " on " << threads << " threads";
@@ -297,12 +297,12 @@ TEST(Checkpoint, GoesOnBitByBit) {
     for (const char* law : {"walton-braun", "spring-dashpot"}) {
         const Scene scene = scene_of({std::string("contact.law=\"") + law + "\""});
         const Plan plan = make_plan(scene);
-        Simulation whole = packed(scene, plan, 1);
+        SimulatedBed whole = packed(scene, plan, 1);
         whole.advance(1234);
         const auto file = folder / "go-on.grs";
         whole.save_checkpoint(file);
         whole.advance(4321);
-        Simulation second = gone_on(scene, plan, file, 2);
+        SimulatedBed second = gone_on(scene, plan, file, 2);
         EXPECT_EQ(second.step(), 1234);
         second.advance(4321);
         EXPECT_EQ(second.state_hash(), whole.state_hash()) << law;
@@ -313,7 +313,7 @@ TEST(Checkpoint, GoesOnBitByBit) {
 TEST(Checkpoint, RefusesAnotherPlanAndADamagedFile) {
     const test::TemporaryFolder folder;
     const Scene scene = scene_of();
-    Simulation simulation = packed(scene, make_plan(scene), 1);
+    SimulatedBed simulation = packed(scene, make_plan(scene), 1);
     const auto file = folder / "refuse.grs";
     simulation.save_checkpoint(file);
     const auto message = [&](const Scene& s) {
@@ -337,7 +337,7 @@ TEST(Energy, WallWorkIsWhatElasticGrainsGain) {
     const Scene scene = scene_of({"contact.restitution=1", "contact.friction=0", "run.steps_per_contact=12",
                                   "start.settle_damping=20"});
     const Plan plan = make_plan(scene);
-    Simulation simulation = packed(scene, plan, 1);
+    SimulatedBed simulation = packed(scene, plan, 1);
     simulation.advance(3 * plan.clock.steps_per_period);
     const double work = simulation.measure("wall_work_J");
     ASSERT_GT(std::abs(work), 1e-4);
@@ -375,7 +375,7 @@ TEST(Health, StopsARunWhoseStepIsTooLong) {
     plan.clock.step *= 12;
     plan.clock.steps_per_period = 0;
     plan.settle_steps_limit = 0;
-    Simulation simulation(scene, plan, 1);
+    SimulatedBed simulation(scene, plan, 1);
     try {
         simulation.pack();
         simulation.advance(100000);

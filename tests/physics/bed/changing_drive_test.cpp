@@ -2,7 +2,7 @@
 // checkpoint, and measures count its periods.
 #include <gtest/gtest.h>
 
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/restart.hpp"
 #include "tests/physics/world.hpp"
@@ -38,7 +38,7 @@ TEST(ChangingDrive, SameBitsOnAnyThreadsAndThroughACheckpointInAChange) {
     const PeriodStretch& change = plan.clock.changes.stretches()[1];
     ASSERT_TRUE(change.changes());
     const auto middle = static_cast<std::int64_t>(change.start + 0.4 * change.length);
-    Simulation whole(scene, plan, 1);
+    SimulatedBed whole(scene, plan, 1);
     whole.pack();
     whole.advance(middle);
     whole.save_checkpoint(folder / "middle.grs");
@@ -50,7 +50,7 @@ TEST(ChangingDrive, SameBitsOnAnyThreadsAndThroughACheckpointInAChange) {
     next.start.file = (folder / "middle.grs").string();
     next.start.keep_clock = true;
     for (const int threads : {1, 2, 3}) {
-        Simulation second(next, plan, threads);
+        SimulatedBed second(next, plan, threads);
         second.pack();
         ASSERT_EQ(second.step(), middle);
         second.advance(end);

@@ -157,7 +157,7 @@ HandMadeBed bed(std::vector<std::string> sets, double share, double fall, bool v
     HandMadeBed w;
     w.plan = make_plan(scene);
     w.around.faces = container_faces(scene.container, scene.drive);
-    if (vibrated) w.around.motion = WallMotion(scene.drive, w.plan.clock);
+    if (vibrated) w.around.motion = DriveMotion(scene.drive, w.plan.clock);
     w.around.gravity = scene.gravity;
     w.around.skin = 0.0007;
     w.grains = place_in_layers(scene);

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "engine/measure/columns.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/support/small_scene.hpp"
@@ -26,7 +26,7 @@ Scene scene_of() {
 TEST(EnergyShares, AddUpToWhatIsLost) {
     const Scene scene = scene_of();
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     run.advance(plan.clock.steps_per_period);
     const Measures m = run.measures();
@@ -49,7 +49,7 @@ TEST(EnergyShares, AreTheSameBitsWhenTakenUp) {
     const test::TemporaryFolder here;
     const Scene scene = scene_of();
     const Plan plan = make_plan(scene);
-    Simulation first(scene, plan, 1);
+    SimulatedBed first(scene, plan, 1);
     first.pack();
     first.advance(333);
     first.save_checkpoint(here / "a.grs");
@@ -59,7 +59,7 @@ TEST(EnergyShares, AreTheSameBitsWhenTakenUp) {
         next.start.method = Start::Method::file;
         next.start.file = (here / "a.grs").string();
         next.start.keep_clock = true;
-        Simulation taken_up(next, plan, threads);
+        SimulatedBed taken_up(next, plan, threads);
         taken_up.pack();
         taken_up.advance(700);
         EXPECT_EQ(taken_up.measures().values(), first.measures().values()) << threads;

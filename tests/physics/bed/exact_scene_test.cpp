@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/scene/scene_text.hpp"
@@ -13,9 +13,9 @@ namespace {
 
 using test::tells_only;
 
-Frame end_of(const Scene& scene) {
+State end_of(const Scene& scene) {
     const Plan plan = make_plan(scene);
-    Simulation simulation(scene, plan, 1);
+    SimulatedBed simulation(scene, plan, 1);
     simulation.pack();
     simulation.advance(plan.steps);
     return simulation.frame();
@@ -29,7 +29,7 @@ Scene scene_of(const std::string& text, const std::vector<std::string>& sets = {
 // the plane hits both. Without friction they get 0.1 and 0.9 of the speed along y, and (1 + e) w upwards
 // each.
 TEST(ExactScene, TwoCollisionsAsOnPaper) {
-    const Frame end = end_of(scene_of(exact_text, {"contact.friction=0", "run.steps_per_contact=400"}));
+    const State end = end_of(scene_of(exact_text, {"contact.friction=0", "run.steps_per_contact=400"}));
     ASSERT_EQ(end.size(), 2u);
     EXPECT_NEAR(end.velocity[0].y(), 0.1 * 0.5, 1e-4);
     EXPECT_NEAR(end.velocity[1].y(), 0.9 * 0.5, 1e-4);
@@ -43,10 +43,10 @@ TEST(ExactScene, GrainsKeepTheirNumbersAndSizes) {
     const std::string text =
         with(with(exact_text, "diameter = \"4 mm\"", "diameter = { min = 0.003, max = 0.005 }"),
              "species = \"ball\"", "diameter = 0.0031");
-    const Frame start = [&] {
+    const State start = [&] {
         const Scene scene = scene_of(text);
         const Plan plan = make_plan(scene);
-        Simulation simulation(scene, plan, 1);
+        SimulatedBed simulation(scene, plan, 1);
         simulation.pack();
         return simulation.frame();
     }();
@@ -78,9 +78,9 @@ TEST(ExactScene, GrainsInEachOtherOrBehindAPlaneAreMistakes) {
 TEST(ExactScene, PlanesFollowTheDriveWhereAsked) {
     const std::string text = with(exact_text, "velocity = [0, 0, \"10 cm/s\"]", "moves = true") +
                              "[drive]\nfrequency = 50\namplitude = 0.002\nramp = 0\n";
-    const Frame moved = end_of(scene_of(text, {"contact.friction=0"}));
+    const State moved = end_of(scene_of(text, {"contact.friction=0"}));
     EXPECT_GT(moved.velocity[0].z(), 0.1) << "the plane, 1 mm below, has hit it";
-    const Frame still = end_of(scene_of(with(text, "moves = true", "moves = false"), {"contact.friction=0"}));
+    const State still = end_of(scene_of(with(text, "moves = true", "moves = false"), {"contact.friction=0"}));
     EXPECT_EQ(still.velocity[0].z(), 0);
 }
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "tests/physics/world.hpp"
@@ -58,14 +58,14 @@ struct Watched {
 
     Scene scene;
     Plan plan;
-    Simulation simulation;
+    SimulatedBed simulation;
     double start = 0;            // J
     double power = 0, work = 0;  // W, J
 };
 
 // Energy (J) of the linear springs between bodies that overlap, and the largest overlap divided by the
 // smaller radius.
-std::pair<double, double> springs(const Watched& w, const Frame& f) {
+std::pair<double, double> springs(const Watched& w, const State& f) {
     const std::size_t kinds = w.scene.species.size();
     double energy = 0, largest = 0;
     const auto add = [&](double overlap, double radius, const PairPlan& pair) {
@@ -88,7 +88,7 @@ Vec3 vector_at(const Measures& m, const std::string& column) {
     return {m.at(column + "_x_m"), m.at(column + "_y_m"), m.at(column + "_z_m")};
 }
 
-void expect_grains(const Watched& w, const Frame& f, const Measures& m) {
+void expect_grains(const Watched& w, const State& f, const Measures& m) {
     double kinetic = 0, rotational = 0, gravitational = 0, mass = 0;
     Vec3 centre = Vec3::Zero();
     std::vector<Vec3> centres(2, Vec3::Zero());
@@ -115,7 +115,7 @@ void expect_grains(const Watched& w, const Frame& f, const Measures& m) {
     }
 }
 
-void expect_order(const Frame& f, const Measures& m) {
+void expect_order(const State& f, const Measures& m) {
     std::vector<double> heights;
     for (const Vec3& x : f.position) heights.push_back(x.z() - f.floor().place.z());
     std::vector<double> sorted = heights;
@@ -142,7 +142,7 @@ TEST(MeasuresOfARun, AreThoseOfFrameAndContacts) {
         SCOPED_TRACE(friction);
         Watched w(friction);
         w.run(3 * w.plan.clock.steps_per_period / 4);
-        const Frame f = w.simulation.frame();
+        const State f = w.simulation.frame();
         const Measures m = w.simulation.measures();
         EXPECT_EQ(m.at("step"), f.step);
         EXPECT_EQ(m.at("time_s"), f.time);

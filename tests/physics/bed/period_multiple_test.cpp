@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "engine/base/random.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/support/small_scene.hpp"
@@ -125,7 +125,7 @@ TEST(PeriodMultiple, OfABallOnAPlateIsTwoAboveTheFirstDoubling) {
                                 .text(),
                             "ball.toml", {"drive.g_level=" + std::to_string(g_level)});
         const Plan plan = make_plan(scene);
-        Simulation simulation(scene, plan, 1);
+        SimulatedBed simulation(scene, plan, 1);
         simulation.pack();
         simulation.advance(plan.steps);
         EXPECT_EQ(simulation.measure("bed_periods"), expected) << g_level;

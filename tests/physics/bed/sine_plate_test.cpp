@@ -28,7 +28,7 @@ HandMadeBed plate(double g_level, double phase, double ramp, double longest, Nor
     w.plan.clock.initial_phase = phase;
     w.around.faces = {floor_face()};
     w.around.faces[0].body.driven = true;
-    w.around.motion = WallMotion(drive, w.plan.clock);
+    w.around.motion = DriveMotion(drive, w.plan.clock);
     w.around.gravity = {0, 0, -kGravity};
     return w;
 }

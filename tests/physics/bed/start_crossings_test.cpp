@@ -56,7 +56,7 @@ TEST_F(StartCrossings, IsAlikeInEveryContainer) {
             EXPECT_EQ(plan.start.relaxes, other != kLaws[0]) << one.name;
             std::uint64_t hash = 0;
             for (const int threads : {1, 2, 3}) {
-                Simulation run(next, plan, threads);
+                SimulatedBed run(next, plan, threads);
                 EXPECT_TRUE(run.pack().settled) << one.name;
                 const double share = plan.start.relaxes ? 0.2 : 0.05;
                 EXPECT_NEAR(run.measure("contact_number"), before.contacts, share * before.contacts)
@@ -66,7 +66,7 @@ TEST_F(StartCrossings, IsAlikeInEveryContainer) {
                 if (threads == 1) hash = run.state_hash();
                 EXPECT_EQ(run.state_hash(), hash) << one.name << ", " << threads << " threads";
             }
-            Simulation on = Simulation::at_checkpoint(next, plan, here / "begun.grs", 2);
+            SimulatedBed on = SimulatedBed::at_checkpoint(next, plan, here / "begun.grs", 2);
             on.advance(300);
             EXPECT_EQ(on.state_hash(), hash) << one.name;
         }

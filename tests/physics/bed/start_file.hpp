@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/grain_table.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/support/small_scene.hpp"
@@ -44,7 +44,7 @@ class StartFile : public testing::Test {
     struct Rest {
         double contacts = 0, height = 0, energy = 0;  // a grain; m; over m g d
     };
-    static Rest rest_of(const Simulation& run, const Scene& scene) {
+    static Rest rest_of(const SimulatedBed& run, const Scene& scene) {
         const double mass = scene.species[0].density * std::numbers::pi / 6 * std::pow(kBedDiameter, 3);
         const double unit = static_cast<double>(run.grains()) * mass * scene.gravity.norm() * kBedDiameter;
         return {run.measure("contact_number"), run.measure("centre_z_m"),
@@ -53,7 +53,7 @@ class StartFile : public testing::Test {
     // A bed that has settled and then lain still. It is written into both files.
     Rest settle(const Scene& scene, double still = 0.02) const {
         const Plan plan = make_plan(scene);
-        Simulation run(scene, plan, 1);
+        SimulatedBed run(scene, plan, 1);
         run.pack();
         run.advance(std::llround(still / plan.clock.step));
         write_grain_table(here / "final.csv", run.frame());
@@ -65,7 +65,7 @@ class StartFile : public testing::Test {
     static void expect_rest(const Scene& scene, const Rest& before, double share, const std::string& what,
                             double seconds = 0.02) {
         const Plan plan = make_plan(scene);
-        Simulation run(scene, plan, 1);
+        SimulatedBed run(scene, plan, 1);
         const PackingResult packed = run.pack();
         EXPECT_TRUE(packed.settled) << what;
         constexpr int looks = 20;

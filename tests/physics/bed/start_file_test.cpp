@@ -65,7 +65,7 @@ TEST_F(StartFile, TheStiffnessOfTheSceneWins) {
     const Plan plan = make_plan(stiff);
     EXPECT_EQ(plan.between(0, 0).loading_stiffness, 10 * there);
     EXPECT_TRUE(plan.start.relaxes);
-    Simulation run(stiff, plan, 1);
+    SimulatedBed run(stiff, plan, 1);
     run.pack();
     EXPECT_LT(rest_of(run, stiff).energy, 1e-4);
     EXPECT_NEAR(run.measure("centre_z_m"), before.height, 0.02 * kBedDiameter);
@@ -100,7 +100,7 @@ TEST_F(StartFile, ABedThatMovesKeepsItsMomentum) {
     const std::string drive = "[drive]\nfrequency = \"20 Hz\"\ng_level = 3\n[film]\nsegment = [{}]\n";
     const Scene scene = scene_of(kBox + drive, {"run.duration=0.3"});
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     run.advance(plan.clock.steps_per_period * 35 / 8);
     run.save_checkpoint(here / "checkpoint.grs");
@@ -110,7 +110,7 @@ TEST_F(StartFile, ABedThatMovesKeepsItsMomentum) {
         EXPECT_FALSE(anew.start.relaxes) << other;
         EXPECT_THAT(anew.start.text, tells({"nothing is damped", "bed in the file moves"}));
         EXPECT_EQ(anew.start.keeps_histories, other == "walton-braun");
-        Simulation begun(next, anew, 1);
+        SimulatedBed begun(next, anew, 1);
         const double before = begun.measure("kinetic_J");
         EXPECT_GT(before, 0);
         begun.pack();
@@ -140,11 +140,11 @@ TEST_F(StartFile, ABedWithoutItsWallsIsTakenBack) {
     const Scene wide = next_of(kBox, "final.csv", {"container.width=40 mm", "contact.friction=0.1"});
     const Plan plan = make_plan(wide);
     ASSERT_TRUE(plan.start.relaxes);
-    Simulation run(wide, plan, 1);
-    const Frame before = run.frame();
+    SimulatedBed run(wide, plan, 1);
+    const State before = run.frame();
     const PackingResult packed = run.pack();
     EXPECT_FALSE(packed.settled);
-    const Frame after = run.frame();
+    const State after = run.frame();
     for (std::size_t i = 0; i < before.size(); ++i) {
         EXPECT_EQ(after.position[i], before.position[i]) << i;
         EXPECT_EQ(after.velocity[i], before.velocity[i]) << i;
@@ -156,14 +156,14 @@ TEST_F(StartFile, KeptHistoriesGoOnAsBefore) {
     for (const std::string& name : kLaws) {
         const Scene scene = scene_of(kBox, {law(name), "contact.rolling_friction=0.1"});
         const Plan plan = make_plan(scene);
-        Simulation whole(scene, plan, 1);
+        SimulatedBed whole(scene, plan, 1);
         whole.pack();
         whole.save_checkpoint(here / "checkpoint.grs");
         const Scene next = next_of(kBox, "checkpoint.grs", {law(name), "contact.rolling_friction=0.1"});
-        Simulation anew(next, make_plan(next), 1);
+        SimulatedBed anew(next, make_plan(next), 1);
         anew.pack();
         whole.advance(100), anew.advance(100);
-        const Frame one = whole.frame(), other = anew.frame();
+        const State one = whole.frame(), other = anew.frame();
         for (std::size_t i = 0; i < one.size(); ++i)
             EXPECT_LT((one.position[i] - other.position[i]).norm(), of_rounding(1e-12, 1e-7) * kBedDiameter)
                 << name << ", grain " << i;

@@ -7,7 +7,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "tests/physics/world.hpp"
@@ -30,7 +30,7 @@ Vec3 moment_on(const Measures& m, const std::string& face) {
     return {m.at(face + "_moment_x_N.m"), m.at(face + "_moment_y_N.m"), m.at(face + "_moment_z_N.m")};
 }
 
-Vec3 momentum(const Scene& scene, const Frame& frame) {
+Vec3 momentum(const Scene& scene, const State& frame) {
     Vec3 sum(0, 0, 0);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const double density = scene.species[static_cast<std::size_t>(frame.species[i])].density;
@@ -53,7 +53,7 @@ class WallForces : public testing::TestWithParam<const char*> {};
 TEST_P(WallForces, ImpulseIsWeightTimesTimeLessTheChangeOfMomentum) {
     const Scene scene = scene_of(test::small_scene_text, {std::string("run.integrator=") + GetParam()});
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     const Vec3 before = momentum(scene, run.frame());
     const int rows = 16;  // two periods
@@ -93,7 +93,7 @@ const std::string kOneGrain =
         .text();
 
 Measures at_rest(const Scene& scene, std::vector<FieldValues>* fields = nullptr) {
-    Simulation run(scene, make_plan(scene), 1);
+    SimulatedBed run(scene, make_plan(scene), 1);
     run.pack();
     run.advance(make_plan(scene).steps);
     if (fields) *fields = run.fields();
@@ -144,7 +144,7 @@ TEST(WallForcesAtRest, AWedgeCarriesAGrainOnBothSides) {
     }
     EXPECT_EQ(m.at("floor_carries"), 0);
     // There are four slices of 8 mm. The push is in the lowest one, over its part of the slant.
-    const Simulation run(scene, make_plan(scene), 1);
+    const SimulatedBed run(scene, make_plan(scene), 1);
     const FieldSet& set = *run.field_sets().at(0);
     ASSERT_EQ(set.axes.at(0).at.size(), 4u);
     for (std::size_t s = 0; s < 4; ++s)
@@ -168,9 +168,9 @@ TEST(WallForcesOfRuns, PressureIsTheMeanOfItsRecord) {
     Scene scene = scene_of(text, {"gravity=[0, 9.81, 0]"});
     const Plan plan = make_plan(scene);
     const double weight = mass(scene) * 9.81, slice = 0.016 / 2;
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
-    const auto of_right_wall = [&](const Simulation& of) {
+    const auto of_right_wall = [&](const SimulatedBed& of) {
         const FieldSet& set = *of.field_sets().at(0);
         const std::vector<FieldValues> values = of.fields();
         for (std::size_t f = 0; f < set.fields.size(); ++f)
@@ -191,29 +191,29 @@ TEST(WallForcesOfRuns, PressureIsTheMeanOfItsRecord) {
     run.advance(6 * plan.fields.record);
     EXPECT_EQ(of_right_wall(run), 0);
 
-    Simulation again = Simulation::at_checkpoint(scene, plan, here / "half.grs", 1);
+    SimulatedBed again = SimulatedBed::at_checkpoint(scene, plan, here / "half.grs", 1);
     again.remove({0});
     again.advance(5 * plan.fields.record);
     EXPECT_NEAR(of_right_wall(again), 0.5 * weight / (0.02 * slice), 1e-3 * of_right_wall(again));
     again.save_checkpoint(here / "end.grs");  // before the record is written
     const double written = of_right_wall(again);
-    EXPECT_EQ(of_right_wall(Simulation::at_checkpoint(scene, plan, here / "end.grs", 1)), written);
+    EXPECT_EQ(of_right_wall(SimulatedBed::at_checkpoint(scene, plan, here / "end.grs", 1)), written);
 
     // Nothing is known of a row whose beginning was not seen.
     Scene without = scene;
     without.output.instruments.clear();
-    Simulation blind(without, plan, 1);
+    SimulatedBed blind(without, plan, 1);
     blind.pack();
     blind.advance(2 * plan.fields.record + 7);
     blind.save_checkpoint(here / "blind.grs");
-    Simulation late = Simulation::at_checkpoint(scene, plan, here / "blind.grs", 1);
+    SimulatedBed late = SimulatedBed::at_checkpoint(scene, plan, here / "blind.grs", 1);
     late.advance(3 * plan.fields.record);
     EXPECT_TRUE(std::isnan(of_right_wall(late)));
     late.advance(4 * plan.fields.record);
     EXPECT_NEAR(of_right_wall(late), weight / (0.02 * slice), of_rounding(1e-9, 1e-5) * of_right_wall(late));
 }
 
-std::vector<double> later_row(Simulation& run, const Plan& plan, int row) {
+std::vector<double> later_row(SimulatedBed& run, const Plan& plan, int row) {
     run.advance(std::llround(row * plan.measures_every));
     return run.measures().values();
 }
@@ -222,14 +222,14 @@ TEST(WallForcesOfRuns, AreTheSameBitsAtAnyNumberOfThreadsAndWhenTakenUp) {
     const test::TemporaryFolder here;
     const Scene scene = scene_of(test::small_scene_text);
     const Plan plan = make_plan(scene);
-    Simulation first(scene, plan, 1);
+    SimulatedBed first(scene, plan, 1);
     first.pack();
     first.advance(std::llround(3.4 * plan.measures_every));  // between two rows
     first.save_checkpoint(here / "a.grs");
     const std::vector<double> expected = later_row(first, plan, 4), last = later_row(first, plan, 9);
     EXPECT_EQ(first.fields().at(0).size(), 4u);  // all that stands
     for (const int threads : {2, 3}) {
-        Simulation whole(scene, plan, threads);
+        SimulatedBed whole(scene, plan, threads);
         whole.pack();
         later_row(whole, plan, 3);
         EXPECT_EQ(later_row(whole, plan, 4), expected) << threads;
@@ -237,7 +237,7 @@ TEST(WallForcesOfRuns, AreTheSameBitsAtAnyNumberOfThreadsAndWhenTakenUp) {
         next.start.method = Start::Method::file;
         next.start.file = (here / "a.grs").string();
         next.start.keep_clock = true;
-        Simulation taken_up(next, plan, threads);
+        SimulatedBed taken_up(next, plan, threads);
         taken_up.pack();
         EXPECT_EQ(later_row(taken_up, plan, 4), expected) << threads;
         EXPECT_EQ(later_row(taken_up, plan, 9), last) << threads;
@@ -250,7 +250,7 @@ TEST(WallForcesOfRuns, ChangeNothing) {
     const Scene with = scene_of(test::small_scene_text);
     Scene without = with;
     without.output.instruments.clear();
-    Simulation a(with, make_plan(with), 2), b(without, make_plan(without), 2);
+    SimulatedBed a(with, make_plan(with), 2), b(without, make_plan(without), 2);
     a.pack(), b.pack();
     a.advance(700), b.advance(700);
     EXPECT_EQ(a.state_hash(), b.state_hash());

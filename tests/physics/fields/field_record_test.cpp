@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/support/small_scene.hpp"
@@ -26,7 +26,7 @@ const std::string column_text =
         .more("overlap = 0.05\nthreads = 1\n")
         .text();
 
-std::vector<double> field_of(const Simulation& run, const std::string& name) {
+std::vector<double> field_of(const SimulatedBed& run, const std::string& name) {
     const FieldSet& set = *run.field_sets().at(0);
     for (std::size_t f = 0; f < set.fields.size(); ++f)
         if (set.fields[f].name == name) return run.fields().at(0).at(f);
@@ -41,7 +41,7 @@ TEST(FieldsOfRun, BedAtRestCarriesTheWeightAbove) {
             with_tested_precision({std::string("output.fields.grid=") + grid, "output.fields.cell=2 mm",
                                    "output.fields.interval=0.1 s", "output.fields.samples=5"}));
         const Plan plan = make_plan(scene);
-        Simulation run(scene, plan, 1);
+        SimulatedBed run(scene, plan, 1);
         run.pack();
         run.advance(plan.steps);
         const FieldGrid cells = make_field_grid(scene, scene.output.fields);
@@ -84,7 +84,7 @@ class ShakenFields : public testing::Test {
                                    "start.keep_clock=true"});
         return with_fields(sets);
     }
-    static FieldValues fields_at(Simulation& run, std::int64_t step) {
+    static FieldValues fields_at(SimulatedBed& run, std::int64_t step) {
         run.advance(step);
         return run.fields().at(0);
     }
@@ -103,7 +103,7 @@ TEST_F(ShakenFields, AreTheSameBitsOnAnyNumberOfThreads) {
     const Plan plan = make_plan(scene);
     std::vector<FieldValues> found;
     for (const int threads : {1, 2, 3}) {
-        Simulation run(scene, plan, threads);
+        SimulatedBed run(scene, plan, threads);
         run.pack();
         found.push_back(fields_at(run, plan.fields.record));
         EXPECT_FALSE(same(found.back(), fields_at(run, plan.fields.end))) << "a second record";
@@ -115,19 +115,19 @@ TEST_F(ShakenFields, AreTheSameBitsOnAnyNumberOfThreads) {
 TEST_F(ShakenFields, GoOnThroughACheckpoint) {
     const Scene scene = scene_of();
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     run.advance(plan.fields.record * 2 / 3);
     run.save_checkpoint(here / "half.grs");
     const FieldValues unbroken = fields_at(run, plan.fields.record);
 
-    Simulation next(next_of(), plan, 1);
+    SimulatedBed next(next_of(), plan, 1);
     next.pack();
     EXPECT_TRUE(same(unbroken, fields_at(next, plan.fields.record)));
 
     // With another kernel, gathered sums are of no use, and the first whole record is the next one.
     const Scene other = next_of({"output.fields.width=3 mm"});
-    Simulation changed(other, make_plan(other), 1);
+    SimulatedBed changed(other, make_plan(other), 1);
     changed.pack();
     EXPECT_TRUE(std::isnan(fields_at(changed, plan.fields.record)[1][0]));
     EXPECT_FALSE(std::isnan(fields_at(changed, plan.fields.end)[1][0]));
@@ -137,11 +137,11 @@ TEST_F(ShakenFields, GoOnThroughACheckpoint) {
 TEST_F(ShakenFields, AFinishedRecordIsInTheCheckpointOfItsEnd) {
     const Scene scene = scene_of();
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     const FieldValues written = fields_at(run, plan.fields.record);
     run.save_checkpoint(here / "half.grs");
-    Simulation next(next_of(), plan, 1);
+    SimulatedBed next(next_of(), plan, 1);
     next.pack();
     EXPECT_TRUE(same(written, next.fields()[0]));
     EXPECT_TRUE(same(fields_at(run, plan.fields.end), fields_at(next, plan.fields.end)));

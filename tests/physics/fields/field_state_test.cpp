@@ -15,7 +15,7 @@ struct MovedBox {
     Plan plan;
     Grains grains;
     Traffic traffic;
-    Pose pose{{0, 0.3, 0.2}, {0, 5, 7}, 0};
+    DrivePose pose{{0, 0.3, 0.2}, {0, 5, 7}, 0};
 
     explicit MovedBox(Moves moves) {
         scene.drive.present = true;
@@ -58,11 +58,11 @@ ContactView touch(std::int32_t second, const Vec3& normal, double overlap) {
 // The branch ends at the other grain's centre or on the face of a wall. The force includes friction.
 TEST(FieldState, BranchesEndAtACentreOrOnAFace) {
     const MovedBox moved(Moves::floor);
-    const FieldContact pair = field_contact(moved.moment(), touch(1, {0, 0, 1}, 0.1));
+    const FieldBranch pair = field_contact(moved.moment(), touch(1, {0, 0, 1}, 0.1));
     EXPECT_LT((pair.begin - Vec3(1.9, 0.5, 0.6)).norm(), 1e-12);
     EXPECT_LT((pair.branch - Vec3(0, 0, 0.4 + 0.5 - 0.1)).norm(), 1e-12);
     EXPECT_LT((pair.force - Vec3(0.5, 0, 6)).norm(), 1e-12);
-    const FieldContact wall = field_contact(moved.moment(), touch(-1, {0, 0, -1}, 0.05));
+    const FieldBranch wall = field_contact(moved.moment(), touch(-1, {0, 0, -1}, 0.05));
     EXPECT_LT((wall.branch - Vec3(0, 0, -0.35)).norm(), 1e-12);
     EXPECT_LT((wall.force - Vec3(0.5, 0, -6)).norm(), 1e-12);
     // Each end has the kernel of its own grain; at a wall both ends have that of the grain.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/scene_file.hpp"
 
@@ -59,7 +59,7 @@ std::string run(const std::string& text, const std::vector<std::string>& sets) {
         return refused.what();
     }
     const Plan plan = make_plan(scene);
-    Simulation simulation(scene, plan, 1);
+    SimulatedBed simulation(scene, plan, 1);
     simulation.pack();
     const double before = energy(simulation.measures());
     simulation.advance(plan.steps);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/plan/damping.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
@@ -40,11 +40,11 @@ Scene scene_of(const Setting& setting, bool wall, double gap) {
 // |e_measured - e| in one impact.
 double error_of(const Setting& setting, bool wall, double phase, const Plan& plan, double restitution) {
     const Scene scene = scene_of(setting, wall, phase * speed * plan.clock.step);
-    Simulation simulation(scene, plan, 1);
+    SimulatedBed simulation(scene, plan, 1);
     simulation.pack();
     const PairPlan& pair = wall ? plan.wall[0] : plan.between(0, 1);
     simulation.advance(static_cast<std::int64_t>(3 * pair.contact_time / plan.clock.step));
-    const Frame end = simulation.frame();
+    const State end = simulation.frame();
     const double closing = end.velocity[0].z() - end.velocity[1].z();
     return std::abs(-closing / speed - restitution);
 }

@@ -111,7 +111,7 @@ TEST(RigidPair, TurnsAlongARoundWall) {
     faces[1].normal = Vec3(-1, 0, 0);
     faces[1].point = Vec3(8.5e-3, 0, 0);
     WallState walls;
-    walls.set(faces, Pose(), Pose(), step);
+    walls.set(faces, DrivePose(), DrivePose(), step);
     Grains grains;
     grains.add(0, 0, before + step * velocity, 1e-3, kDensity);
     grains.motion[0].velocity = velocity;

@@ -132,7 +132,7 @@ class Crowd {
 // The kernel's answer must be the scalar law's.
 template <class Normal, class Tangential, class R>
 void compare_at(NormalForce normal, TangentialLaw tangential, const std::vector<PairPlan>& kinds) {
-    using Law = ContactLaw<Normal, Tangential>;
+    using Law = LawPair<Normal, Tangential>;
     using Number = NumberOf<R>;
     const Precision precision = std::is_same_v<Number, float> ? Precision::mixed : Precision::full;
     const LawKernel& kernel = law_kernel({normal, tangential, false, precision});

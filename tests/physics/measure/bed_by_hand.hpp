@@ -17,7 +17,7 @@ struct BedByHand {
     Plan plan;
     Grains grains;
     Traffic traffic;
-    Pose pose;
+    DrivePose pose;
     double period = 0;  // m, of x
     Vec3 gravity{0, 0, -10};
     std::optional<WallSums> walls;

@@ -247,7 +247,7 @@ TEST(Drift, HasErrorsOverItsWindows) {
 TEST(Drift, IsThatAgainstTheContainer) {
     Bed bed;
     Drift drift(bed.scene);
-    const Pose moved{{0, 3, 0.5}, {0, 0, 0}, 0};
+    const DrivePose moved{{0, 3, 0.5}, {0, 0, 0}, 0};
     for (Place& p : bed.grains.place) p.position += moved.offset;
     drift.note(0, bed.grains, moved);
     for (std::size_t i = 0; i < bed.grains.size(); ++i)

@@ -6,7 +6,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/measure/flow/drift.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/traffic.hpp"
 #include "tests/physics/measure/bed_by_hand.hpp"
@@ -126,7 +126,7 @@ TEST(OutflowInstrument, CountsWhatAFeedHasGiven) {
         if (from == 0) bed.grains.add(0, 0, {0, 0, 1}, 0.5, 6 / std::numbers::pi);
         for (std::int64_t k = std::max<std::int64_t>(0, static_cast<std::int64_t>(from) - 1); k < given;
              ++k) {
-            const NewGrain grain = fed_grain(bed.scene, 0, k);
+            const ComingGrain grain = fed_grain(bed.scene, 0, k);
             bed.grains.add(static_cast<std::int32_t>(k + 1), 1, {0, 0, 5}, grain.radius, grain.density);
         }
     };
@@ -254,7 +254,7 @@ TEST(BedInstrument, FindsTheFlightOfABlock) {
     const Scene scene = shaken({"species.small.count=1", "species.big.count=1", "drive.ramp=0",
                                 "contact.law=spring-dashpot", "contact.restitution=0.05"});
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     EXPECT_NEAR(run.measure("bed_expansion"), 1, 1e-12);
     run.advance(3 * plan.clock.steps_per_period);
@@ -272,7 +272,7 @@ TEST(Instruments, GoOnFromACheckpointBitByBit) {
     const Scene scene = shaken({"run.duration=0.7 s", "run.seed=2"});
     const Plan plan = make_plan(scene);
     const std::int64_t period = plan.clock.steps_per_period;
-    Simulation whole(scene, plan, 1);
+    SimulatedBed whole(scene, plan, 1);
     whole.pack();
     whole.advance(5 * period + period / 3);
     whole.save_checkpoint(here / "broken.grs");
@@ -281,7 +281,7 @@ TEST(Instruments, GoOnFromACheckpointBitByBit) {
     rest.start.method = Start::Method::file;
     rest.start.file = (here / "broken.grs").string();
     rest.start.keep_clock = true;
-    Simulation taken_up(rest, make_plan(rest), 2);
+    SimulatedBed taken_up(rest, make_plan(rest), 2);
     taken_up.pack();
     taken_up.advance(9 * period);
     const Measures expected = whole.measures(), found = taken_up.measures();

@@ -25,7 +25,7 @@ std::vector<Place> bed_of(int width, int depth, const std::function<double(doubl
     return grains;
 }
 
-SurfaceFrame frame_of(double width, double depth) {
+SurfaceAxes frame_of(double width, double depth) {
     return {-0.5 * width, 0.5 * width, -0.5 * depth, 0.5 * depth, 0, 1};
 }
 
@@ -88,7 +88,7 @@ TEST(Surface, FillsBinsWithoutGrainsFromTheNearest) {
 }
 
 TEST(Surface, FindsGrainsPastAPeriodicEnd) {
-    SurfaceFrame frame = frame_of(20, 4);
+    SurfaceAxes frame = frame_of(20, 4);
     frame.period = 4;
     const BedOutline surface = surface_of(std::vector<Place>{{{3, 0, 3}, 0.5}, {{-1, 0, 7}, 0.5}}, frame);
     EXPECT_EQ(surface.height[5],
@@ -107,7 +107,7 @@ TEST(SurfaceFrame, IsAsWideAsTheContainerWhereTheBedEnds) {
     wedge.half_width = 22, wedge.depth = 10, wedge.height = 40;
     wedge.half_angle = pi / 4, wedge.slant_height = 20;
     const double area = pi / 6 * (90 + 10 * 64) / 0.6 / 10, h = std::sqrt(4 + area) - 2;
-    const SurfaceFrame frame = surface_frame(scene);
+    const SurfaceAxes frame = surface_frame(scene);
     EXPECT_NEAR(frame.diameter, 1.3, 1e-12);
     EXPECT_NEAR(frame.right, 2 + h, 1e-9);
     EXPECT_NEAR(frame.left, -2 - h, 1e-9);

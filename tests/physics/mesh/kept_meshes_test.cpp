@@ -7,7 +7,7 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/mesh/load_mesh.hpp"
-#include "engine/run/folder/scene_folder_run.hpp"
+#include "engine/run/folder/scene_job.hpp"
 #include "tests/scene/meshes_by_hand.hpp"
 #include "tests/support/tells.hpp"
 
@@ -26,10 +26,10 @@ class KeptMeshes : public testing::Test {
         text.replace(text.find("plate.stl"), 9, "meshes of mine/plate.stl");
         text.replace(text.find("0.2 s"), 5, "1 ms");
         scene = files.read(text);
-        RunRequest request;
+        JobRequest request;
         request.out = files.path() / "run";
         SilentListener listener;
-        SceneFolderRun(request, listener, scene, make_plan(scene)).run();
+        SceneJob(request, listener, scene, make_plan(scene)).run();
     }
     template <class Do>
     static std::string complaint(const Do& what) {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "engine/plan/plan.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "tests/physics/mesh/mesh_files.hpp"
 #include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"

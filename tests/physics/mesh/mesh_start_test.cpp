@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/surroundings.hpp"
@@ -75,7 +75,7 @@ height = "40 mm"
         double centre[2], solid[2];
         for (const bool of_mesh : {true, false}) {
             const Scene& scene = of_mesh ? mesh : planes;
-            Simulation run(scene, make_plan(scene), 1);
+            SimulatedBed run(scene, make_plan(scene), 1);
             const PackingResult packed = run.pack();
             EXPECT_TRUE(packed.settled) << method;
             centre[of_mesh] = run.measure("centre_z_m");
@@ -98,7 +98,7 @@ TEST_F(MeshStart, AVesselElsewhereIsFilledThere) {
     EXPECT_NEAR(scene.container.base(), low.z(), 1e-4);
     const double deep = volume_of_beads(scene) / 0.6 / (0.03 * 0.02);
     EXPECT_NEAR(make_plan(scene).bed_height, deep, 0.02 * deep);
-    Simulation run(scene, make_plan(scene), 1);
+    SimulatedBed run(scene, make_plan(scene), 1);
     EXPECT_TRUE(run.pack().settled);
     for (const Vec3& x : run.frame().position) {
         EXPECT_TRUE(((x - low).array() > 0.0009).all());
@@ -125,7 +125,7 @@ file = "plate.stl"
         highest = std::max(highest, p.position.z());
     }
     EXPECT_NEAR(highest, top, 0.02 * top);
-    Simulation run(scene, make_plan(scene), 1);
+    SimulatedBed run(scene, make_plan(scene), 1);
     run.pack();
     for (const Vec3& x : run.frame().position) EXPECT_GT(x.z(), 0.0009);
     EXPECT_LT(run.measure("centre_z_m"), 0.006);  // a heap on the plate
@@ -141,7 +141,7 @@ TEST_F(MeshStart, WallsStandStillWhileABedSettles) {
     for (const bool turns : {false, true}) {
         const Scene scene =
             read(turns ? still + turn : still, {"species.0.count=1", "contact.stiffness=1e4"});
-        Simulation run(scene, make_plan(scene), 1);
+        SimulatedBed run(scene, make_plan(scene), 1);
         EXPECT_TRUE(run.pack().settled);
         place[turns] = run.frame().position[0];
         EXPECT_EQ(run.frame().bodies.back().rotation.coeffs(), Quaternion::Identity().coeffs());
@@ -158,7 +158,7 @@ TEST_F(MeshStart, ARestingBedStaysAtRestUnderTheSameLaw) {
     std::string text = std::string(kBeads) + kVessel;
     text.replace(text.find("vessel.stl"), 10, "meshes/vessel.stl");
     const Scene scene = read(text);
-    Simulation first(scene, make_plan(scene), 1);
+    SimulatedBed first(scene, make_plan(scene), 1);
     first.pack();
     first.save_checkpoint(here / "checkpoint.grs");
     const Scene next = read(text, {"start.method=file", "start.file=" + (here / "checkpoint.grs").string()});
@@ -166,7 +166,7 @@ TEST_F(MeshStart, ARestingBedStaysAtRestUnderTheSameLaw) {
     EXPECT_TRUE(plan.start.keeps_histories);
     EXPECT_FALSE(plan.start.relaxes);
     EXPECT_EQ(plan.mesh[0].stiffness_reason, "the start file");
-    Simulation run(next, plan, 1);
+    SimulatedBed run(next, plan, 1);
     run.pack();
     const double before = run.measure("centre_z_m");
     EXPECT_NEAR(before, first.measure("centre_z_m"), 1e-9);
@@ -180,11 +180,11 @@ TEST_F(MeshStart, ACheckpointGoesOnBitByBit) {
     const Scene scene = read(std::string(kBeads) + kVessel +
                              "turn = { axis = [1, 0, 0], through = [0, 0, 0.02], rate = \"60 rpm\" }\n");
     const Plan plan = make_plan(scene);
-    Simulation whole(scene, plan, 1), half(scene, plan, 1);
+    SimulatedBed whole(scene, plan, 1), half(scene, plan, 1);
     whole.pack(), half.pack();
     whole.advance(600), half.advance(300);
     half.save_checkpoint(here / "checkpoint.grs");
-    Simulation rest = Simulation::at_checkpoint(scene, plan, here / "checkpoint.grs", 2);
+    SimulatedBed rest = SimulatedBed::at_checkpoint(scene, plan, here / "checkpoint.grs", 2);
     rest.advance(600);
     EXPECT_EQ(rest.state_hash(), whole.state_hash());
 }

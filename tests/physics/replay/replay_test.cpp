@@ -57,14 +57,14 @@ struct RunOnDisk {
             if (ring.due(step)) ring.add(step, [&](const fs::path& file) { run->save_checkpoint(file); });
         }
     }
-    Simulation at(std::int64_t step, int threads) const {
+    SimulatedBed at(std::int64_t step, int threads) const {
         return replayed(here, kept_checkpoints(here), step, threads, go_on);
     }
 
     fs::path here;
     Scene scene;
     Plan plan;
-    std::optional<Simulation> run;
+    std::optional<SimulatedBed> run;
     std::int64_t last = 0;
 };
 
@@ -128,15 +128,15 @@ void expect_contacts_move_grains(const std::vector<std::string>& sets) {
     run.go(random_steps(20, run.last), [](std::int64_t) {});
     const double dt = run.plan.clock.step;
     for (const std::int64_t step : random_steps(21, run.last)) {
-        Simulation moment = run.at(step, 1);
-        const Frame now = moment.frame();
+        SimulatedBed moment = run.at(step, 1);
+        const State now = moment.frame();
         std::vector<Vec3> force(now.size(), Vec3(0, 0, 0));
-        for (const ContactForce& one : moment.contact_forces()) {
+        for (const DetailedContact& one : moment.contact_forces()) {
             force[static_cast<std::size_t>(one.first)] += one.on_first();
             if (one.second >= 0) force[static_cast<std::size_t>(one.second)] += one.on_second();
         }
         moment.advance(step + 1);
-        const Frame later = moment.frame();
+        const State later = moment.frame();
         for (std::size_t i = 0; i < now.size(); ++i) {
             const double mass = run.scene.species[now.species[i]].density * 4.0 / 3 * std::numbers::pi *
                                 std::pow(now.radius[i], 3);

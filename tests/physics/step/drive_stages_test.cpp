@@ -4,7 +4,7 @@
 
 #include "engine/plan/times.hpp"
 #include "engine/scene/drive_schedule.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
@@ -49,15 +49,15 @@ TEST(DriveStages, PlaceAndVelocityAreContinuous) {
         drive.ramp = ramp;
         drive.phase = 0.1;
         const Clock clock = clock_of(drive);
-        const WallMotion motion(drive, clock);
+        const DriveMotion motion(drive, clock);
         ASSERT_EQ(clock.changes.stretches().size(),
                   8u);  // 5 stages and 3 changes; there is no change from rest to taps
         for (std::size_t i = 1; i < 8; ++i) {
             const double start = clock.changes.stretches()[i].start;
             const auto after = static_cast<std::int64_t>(std::ceil(start));
             const double before = std::min(start - static_cast<double>(after - 1), std::nextafter(1.0, 0.0));
-            const Pose left = motion.at(after - 1, before);
-            const Pose right = motion.at(after, start - static_cast<double>(after));
+            const DrivePose left = motion.at(after - 1, before);
+            const DrivePose right = motion.at(after, start - static_cast<double>(after));
             EXPECT_NEAR(left.offset.z(), right.offset.z(), 1e-12 * drive.amplitude) << i;
             EXPECT_NEAR(left.velocity.z(), right.velocity.z(), 1e-12 * drive.top_speed()) << i;
         }
@@ -67,7 +67,7 @@ TEST(DriveStages, PlaceAndVelocityAreContinuous) {
 TEST(DriveStages, VelocityIsTheRateOfThePlace) {
     const Drive drive = changing_drive();
     const Clock clock = clock_of(drive);
-    const WallMotion motion(drive, clock);
+    const DriveMotion motion(drive, clock);
     // A tap begins and ends with its full acceleration, A = (2 pi f)^2 a; there the mean is off by A dt / 4.
     const double at_taps = 0.26 * 4 * kGravity * clock.step;
     for (std::int64_t n = 5; n < 480000; n += 97) {
@@ -78,7 +78,7 @@ TEST(DriveStages, VelocityIsTheRateOfThePlace) {
 }
 
 // Largest acceleration in m/s2 between two times, from second differences of the place.
-double largest_acceleration(const WallMotion& motion, const Clock& clock, double from, double to) {
+double largest_acceleration(const DriveMotion& motion, const Clock& clock, double from, double to) {
     double largest = 0;
     const auto first = static_cast<std::int64_t>(std::ceil(from / clock.step)) + 1;
     for (std::int64_t n = first; clock.time(n + 1) < to; n += 3) {
@@ -96,7 +96,7 @@ TEST(DriveStages, PeakAccelerationIsGammaInAStageAndBoundedInAChange) {
         for (const double g_level : {1.2, 3.0, 6.0}) {
             const Drive drive = drive_of({stage(Kind::vibrate, 0.5, frequency, g_level)});
             const Clock clock = clock_of(drive, 2000);
-            const WallMotion motion(drive, clock);
+            const DriveMotion motion(drive, clock);
             const DriveSchedule schedule(drive);
             const double begins = schedule.begins(1), settled = schedule.settled(1);
             const double in_change = largest_acceleration(motion, clock, begins, settled) / kGravity;
@@ -145,7 +145,7 @@ TEST(DriveStages, StepsAndPeriodsAreEachOthersInverse) {
 TEST(DriveStages, PhaseOfALateStageLosesNoDigit) {
     const Drive drive = drive_of({stage(Kind::vibrate, 0.5, 32, 2)});  // 5000 steps
     const Clock clock = clock_of(drive);
-    const WallMotion motion(drive, clock);
+    const DriveMotion motion(drive, clock);
     const std::int64_t late = 200001, later = late + 5000 * std::int64_t{100000000};
     EXPECT_EQ(clock.phase(late), clock.phase(later));
     EXPECT_EQ(motion.at(late).offset.z(), motion.at(later).offset.z());
@@ -156,7 +156,7 @@ TEST(DriveStages, TapsAreAsHighAndAsLongAsTheySay) {
     const double a = amplitude_of(4, 30);
     const Drive drive = drive_of({stage(Kind::taps, 0, 30, 4, 0.2)}, 30);
     const Clock clock = clock_of(drive, 9000);
-    const WallMotion motion(drive, clock);
+    const DriveMotion motion(drive, clock);
     const std::int64_t interval = 54000;  // 0.2 s
     for (int tap = 0; tap < 4; ++tap) {
         const std::int64_t from = tap * interval;
@@ -177,7 +177,7 @@ TEST(DriveStages, TapsAreAsHighAndAsLongAsTheySay) {
 TEST(DriveStages, RestIsAtRest) {
     const Drive drive = drive_of({stage(Kind::rest, 0.5, 0, 0)});
     const Clock clock = clock_of(drive);
-    const WallMotion motion(drive, clock);
+    const DriveMotion motion(drive, clock);
     const std::int64_t settled = (10 + 3) * 8000;
     EXPECT_GT(std::abs(motion.at(settled - 2500).offset.z()), 0);
     for (std::int64_t n = settled; n < settled + 100000; n += 999) {
@@ -196,7 +196,7 @@ TEST(DriveStages, BallsReboundFromThePlateAsItMoves) {
     w.plan.clock = clock_of(drive, 12500);
     w.around.faces = {floor_face()};
     w.around.faces[0].body.driven = true;
-    w.around.motion = WallMotion(drive, w.plan.clock);
+    w.around.motion = DriveMotion(drive, w.plan.clock);
     constexpr int balls = 20;
     for (int k = 0; k < balls; ++k) {
         w.grains.add(k, 0, Vec3(0, 0.01 * k, kRadius + stroke + speed * 0.0261 * k), kRadius, kDensity);

@@ -9,7 +9,7 @@
 
 #include "engine/grain_table.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/physics/mesh/mesh_files.hpp"
 #include "tests/physics/world.hpp"
@@ -50,7 +50,7 @@ double mass_of(const Departure& one, const Scene& scene) {
 }
 
 struct Start {
-    Frame packed;  // before anybody leaves
+    State packed;  // before anybody leaves
     PackingResult result;
     std::vector<Departure> left;  // until a step
     std::uint64_t hash = 0;       // at that step
@@ -58,7 +58,7 @@ struct Start {
 
 Start start_of(const Scene& scene, int threads, std::int64_t until = 0) {
     Start start;
-    Simulation run(scene, make_plan(scene), threads);
+    SimulatedBed run(scene, make_plan(scene), threads);
     start.result = run.pack([](const PackingProgress&) { return true; },
                             [&](const PackingResult&) { start.packed = run.frame(); });
     run.advance(until);
@@ -122,7 +122,7 @@ TEST(ExitAtStart, IsTheSameOnAnyNumberOfThreads) {
 TEST(ExitAtStart, OutflowCountsThem) {
     const Scene scene = scene_of(std::string(kBed) + kExit);
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     double mass = 0, at_start = 0;
     const auto take = [&] {
@@ -144,7 +144,7 @@ TEST(ExitAtStart, OutflowCountsThem) {
 TEST(ExitAtStart, TheEnergyBalanceIsThatOfTheGrainsThatStay) {
     const Scene scene = scene_of(std::string(kBed) + kExit);
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     const double held = run.measure("gravitational_J");
     EXPECT_NEAR(run.measure("lost_J"), 0, 1e-12 * held) << "nothing is lost when grains leave at step 0";
@@ -160,25 +160,25 @@ TEST(ExitAtStart, ACheckpointOfAnyStepGoesOnBitByBit) {
         const Scene scene = scene_of(std::string(kBed) + kExit + feed);
         const Plan plan = make_plan(scene);
         for (const std::int64_t step : {0, 150}) {
-            Simulation whole(scene, plan, 1);
+            SimulatedBed whole(scene, plan, 1);
             whole.pack();
             ASSERT_GT(whole.traffic().left, 0);
             whole.advance(step);
             whole.save_checkpoint(here / "half.grs");
             whole.take_departures();
             for (const int threads : {1, 2, 3}) {
-                Simulation rest = Simulation::at_checkpoint(scene, plan, here / "half.grs", threads);
+                SimulatedBed rest = SimulatedBed::at_checkpoint(scene, plan, here / "half.grs", threads);
                 EXPECT_EQ(rest.state_hash(), whole.state_hash()) << step;
                 EXPECT_EQ(rest.traffic().left, whole.traffic().left);
                 EXPECT_TRUE(rest.take_departures().empty()) << "they have left before";
                 rest.advance(step + 300);
-                Simulation other = Simulation::at_checkpoint(scene, plan, here / "half.grs", 1);
+                SimulatedBed other = SimulatedBed::at_checkpoint(scene, plan, here / "half.grs", 1);
                 other.advance(step + 300);
                 EXPECT_EQ(rest.state_hash(), other.state_hash()) << step << ", " << threads << " threads";
                 EXPECT_EQ(rest.measure("outflow_kg"), other.measure("outflow_kg"));
             }
             whole.advance(step + 300);
-            Simulation rest = Simulation::at_checkpoint(scene, plan, here / "half.grs", 1);
+            SimulatedBed rest = SimulatedBed::at_checkpoint(scene, plan, here / "half.grs", 1);
             rest.advance(step + 300);
             EXPECT_EQ(rest.state_hash(), whole.state_hash()) << step;
             EXPECT_EQ(rest.measure("outflow_kg"), whole.measure("outflow_kg")) << step;
@@ -191,7 +191,7 @@ TEST(ExitAtStart, AKeptPackingBeginsTheSameRun) {
     const TemporaryFolder here;
     const Scene scene = scene_of(std::string(kBed) + kExit);
     const Plan plan = make_plan(scene);
-    Simulation packs(scene, plan, 1);
+    SimulatedBed packs(scene, plan, 1);
     const std::string key = packs.packing_key();
     const PackingResult result =
         packs.pack([](const PackingProgress&) { return true; },
@@ -199,7 +199,7 @@ TEST(ExitAtStart, AKeptPackingBeginsTheSameRun) {
     ASSERT_GT(result.left, 0u);
     for (const int threads : {1, 2, 3}) {
         PackingResult found;
-        auto takes = Simulation::with_packing(scene, plan, here / "kept.grs", key, threads, found);
+        auto takes = SimulatedBed::with_packing(scene, plan, here / "kept.grs", key, threads, found);
         ASSERT_TRUE(takes);
         EXPECT_EQ(found.left, result.left);
         EXPECT_EQ(found.left_share, result.left_share);
@@ -260,7 +260,7 @@ std::string warning_of(const Scene& scene) {
 TEST(ExitAtStart, GrainsOfAFileLeaveToo) {
     const TemporaryFolder here;
     const Scene bed = scene_of(kBed);
-    Simulation first(bed, make_plan(bed), 1);
+    SimulatedBed first(bed, make_plan(bed), 1);
     first.pack();
     write_grain_table(here / "final.csv", first.frame());
     first.save_checkpoint(here / "checkpoint.grs");

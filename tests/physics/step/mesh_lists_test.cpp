@@ -64,7 +64,7 @@ TEST(MeshSearch, ListsTheGrainsThatEachAloneWould) {
     meshes[0].surface = surface_of(box_mesh(Vec3(-1, -1, -1), Vec3(1, 1, 1), 6));
     meshes[1].surface = surface_of(tube_mesh(0.3, 1, 24, 5));
     meshes[1].body.velocity = Vec3(0.5, 0, 0);
-    Pose pose;
+    DrivePose pose;
     pose.time = 0.4;
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> anywhere(-1.1, 1.1), size(0.01, 0.05);

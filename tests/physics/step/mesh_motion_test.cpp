@@ -437,7 +437,7 @@ TEST(MeshSameBits, WhenGrainsLeaveAndCome) {
         w.run(3000);
         w.loop->remove({5, 17, 40, 41, 90}, w.step);
         w.run(1);
-        NewGrain grain;
+        ComingGrain grain;
         grain.radius = kRadius;
         grain.density = kDensity;
         grain.position = {-0.01, -0.01, 0.046};

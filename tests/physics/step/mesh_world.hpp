@@ -11,7 +11,7 @@
 
 #include "engine/mesh/load_mesh.hpp"
 #include "engine/mesh/surface.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
@@ -107,7 +107,7 @@ inline std::shared_ptr<const Surface> surface_of(TriangleMesh mesh) {
 
 // Lets time pass for bodies with motions of their own.
 inline void start_clock(HandMadeBed& w) {
-    w.around.motion = WallMotion(Drive{}, w.plan.clock);
+    w.around.motion = DriveMotion(Drive{}, w.plan.clock);
 }
 
 // Adds a mesh with the contact of walls.

@@ -7,7 +7,7 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/measure/energy.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/geometry/contact_geometry.hpp"
@@ -248,7 +248,7 @@ TEST(Outlet, ContactsTurnAsTheirNormalsDo) {
         const Container c = container_with(shape, outlet);
         const std::vector<Face> faces = open_faces(c);
         WallState walls;
-        walls.set(faces, Pose(), Pose(), step);
+        walls.set(faces, DrivePose(), DrivePose(), step);
         for (std::size_t f = 0; f < faces.size(); ++f)
             for (int k = 0; k < 400; ++k) {
                 // The place goes around the floor's rim and the foot of the walls.
@@ -306,7 +306,7 @@ TEST(Outlet, AGrainThatFallsThroughLeavesInTheStepOfFreeFall) {
             .text(),
         "one.toml", with_tested_precision({}));
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     run.advance(plan.steps);
     EXPECT_EQ(run.grains(), 0u);
@@ -329,7 +329,7 @@ TEST(Outlet, ABedRunsOutAlikeOnAnyNumberOfThreadsAndThroughACheckpoint) {
         const test::TemporaryFolder folder;
         const std::filesystem::path opened = folder / "opened.grs", later = folder / "later.grs";
         for (const int threads : {1, 2, 3}) {
-            Simulation run(scene, plan, threads);
+            SimulatedBed run(scene, plan, threads);
             run.pack();
             run.advance(*plan.opens);
             EXPECT_EQ(run.traffic().left, 0);
@@ -346,7 +346,7 @@ TEST(Outlet, ABedRunsOutAlikeOnAnyNumberOfThreadsAndThroughACheckpoint) {
             next.start.method = Start::Method::file;
             next.start.file = file.string();
             next.start.keep_clock = true;
-            Simulation on(next, plan, 2);
+            SimulatedBed on(next, plan, 2);
             on.advance(plan.steps);
             EXPECT_EQ(on.state_hash(), bits) << file;
         }
@@ -357,7 +357,7 @@ TEST(Outlet, ABedRunsOutAlikeOnAnyNumberOfThreadsAndThroughACheckpoint) {
 TEST(Outlet, MassAndEnergyAreAccountedFor) {
     const Scene scene = scene_of();
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     const auto mass_of = [](double radius) {
         return 2500 * 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
@@ -399,7 +399,7 @@ TEST(Outlet, WhatFlowsOutIsKnownWhileAFeedGivesGrains) {
     const std::filesystem::path half = folder / "half.grs";
     std::vector<std::vector<double>> rows;
     double left = 0, flowed = 0, last = 0;
-    const auto go_on = [&](Simulation& run, bool save) {
+    const auto go_on = [&](SimulatedBed& run, bool save) {
         std::vector<std::vector<double>> found;
         for (std::int64_t row = std::llround(static_cast<double>(run.step()) / plan.measures_every) + 1;
              row <= 28; ++row) {
@@ -416,13 +416,13 @@ TEST(Outlet, WhatFlowsOutIsKnownWhileAFeedGivesGrains) {
         }
         return found;
     };
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     rows = go_on(run, true);
     EXPECT_NEAR(flowed, left, 1e-9 * left);
     EXPECT_GT(run.traffic().left, 10);
     EXPECT_GT(run.traffic().came, 50);
-    Simulation again = Simulation::at_checkpoint(scene, plan, half, 2);
+    SimulatedBed again = SimulatedBed::at_checkpoint(scene, plan, half, 2);
     const auto later = go_on(again, false);
     ASSERT_EQ(later.size(), rows.size() - 18);
     for (std::size_t k = 0; k < later.size(); ++k)

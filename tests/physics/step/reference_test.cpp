@@ -101,7 +101,7 @@ HandMadeBed fast_world(const Plan& plan, const Bed& bed, const std::vector<Refer
     drive.amplitude = bed.shaking.amplitude;
     drive.direction = bed.shaking.direction;
     drive.ramp = 0;
-    w.around.motion = WallMotion(drive, plan.clock);
+    w.around.motion = DriveMotion(drive, plan.clock);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         w.grains.add(static_cast<std::int32_t>(i), grains[i].species, grains[i].position, grains[i].radius,
                      kDensity);

@@ -9,7 +9,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/surroundings.hpp"
@@ -197,7 +197,7 @@ TEST(RoughWalls, MoveAndWorkAsTheirWallDoes) {
     Face far_below = floor_face();
     far_below.point.z() = -1;
     far_below.body.velocity = Vec3(0, 0, speed);
-    w.around.motion = WallMotion(Drive{}, w.plan.clock);
+    w.around.motion = DriveMotion(Drive{}, w.plan.clock);
     w.around.faces = {far_below};
     w.around.glued.place.push_back({Vec3(0, 0, 1), 1.5 * kRadius});
     w.around.glued.face.push_back(0);
@@ -227,9 +227,9 @@ TEST(RoughWalls, NothingIsPackedIntoThem) {
     for (const char* method : {"layers", "rain"}) {
         const Scene scene = scene_of({fmt::format("start.method={}", method), "start.settle_limit=0.2 s"});
         const Plan plan = make_plan(scene);
-        Simulation run(scene, plan, 1);
+        SimulatedBed run(scene, plan, 1);
         run.pack();
-        const Frame frame = run.frame();
+        const State frame = run.frame();
         ASSERT_EQ(frame.size(), 96u) << "glued grains do not count";
         const std::vector<Face> faces = faces_of(scene);
         const GluedGrains glued = glue_grains(scene, faces);
@@ -249,13 +249,13 @@ TEST(RoughWalls, TheSameBitsAtAnyNumberOfThreadsAndThroughACheckpoint) {
     const test::TemporaryFolder here;
     const Scene scene = scene_of({"output.instruments=[\"walls\"]", "run.duration=0.02 s"});
     const Plan plan = make_plan(scene);
-    Simulation first(scene, plan, 1);
+    SimulatedBed first(scene, plan, 1);
     first.pack();
     first.advance(plan.steps / 2);
     first.save_checkpoint(here / "a.grs");
     first.advance(plan.steps);
     for (const int threads : {2, 3}) {
-        Simulation whole(scene, plan, threads);
+        SimulatedBed whole(scene, plan, threads);
         whole.pack();
         whole.advance(plan.steps);
         EXPECT_EQ(whole.state_hash(), first.state_hash()) << threads;
@@ -266,7 +266,7 @@ TEST(RoughWalls, TheSameBitsAtAnyNumberOfThreadsAndThroughACheckpoint) {
         next.start.method = Start::Method::file;
         next.start.file = (here / "a.grs").string();
         next.start.keep_clock = true;
-        Simulation taken_up(next, plan, threads);
+        SimulatedBed taken_up(next, plan, threads);
         taken_up.pack();
         taken_up.advance(plan.steps);
         EXPECT_EQ(taken_up.state_hash(), first.state_hash()) << threads;
@@ -277,12 +277,12 @@ TEST(RoughWalls, TheSameBitsAtAnyNumberOfThreadsAndThroughACheckpoint) {
 TEST(RoughWalls, TheirForcesAreThoseOfTheirFace) {
     const Scene scene = scene_of({"output.instruments=[\"walls\"]", "species.small.count=60"});
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     double mass = 0;
     const auto momentum = [&] {
         Vec3 sum(0, 0, 0);
-        const Frame frame = run.frame();
+        const State frame = run.frame();
         mass = 0;
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const double m = 2500 * 4.0 / 3 * std::numbers::pi * std::pow(frame.radius[i], 3);
@@ -314,11 +314,11 @@ TEST(RoughWalls, TheirForcesAreThoseOfTheirFace) {
 TEST(RoughWalls, ContactsHaveTheFrictionOfTheGluedGrains) {
     const Scene scene = scene_of({"contact.wall.friction=0.05", "drive.g_level=1.5"});
     const Plan plan = make_plan(scene);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     run.advance(plan.steps / 2);
     int beyond_the_walls = 0;
-    for (const ContactForce& contact : run.contact_forces()) {
+    for (const DetailedContact& contact : run.contact_forces()) {
         const double tangential = contact.tangential.norm();
         EXPECT_LE(tangential, (1 + 1e-5) * contact.friction * contact.normal_force);
         if (contact.second < 0 && tangential > 0.06 * contact.normal_force) ++beyond_the_walls;
@@ -372,16 +372,16 @@ void expect_to_start(int grains, int seed, const char* face, const char* gravity
     const Scene scene =
         read_scene_text(kFewInACylinder, "few.toml", with_tested_precision(sets), measurable_in);
     const std::string what = fmt::format("{} grains, seed {}, {}, {} m/s2", grains, seed, face, gravity);
-    Simulation run(scene, make_plan(scene), 1);
+    SimulatedBed run(scene, make_plan(scene), 1);
     run.pack();
-    const Frame frame = run.frame();
+    const State frame = run.frame();
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const Vec3& at = frame.position[i];
         EXPECT_LE(std::hypot(at.x(), at.y()), 0.024 - 0.99 * frame.radius[i]) << what;
         EXPECT_GE(at.z(), 0.99 * frame.radius[i]) << what;
         EXPECT_LE(at.z(), 0.08) << what;
     }
-    for (const ContactForce& contact : run.contact_forces())
+    for (const DetailedContact& contact : run.contact_forces())
         EXPECT_LT(contact.overlap, 1e-2 * contact.smaller_radius) << what;
     EXPECT_NO_THROW(run.advance(1)) << what;
 }

@@ -224,7 +224,7 @@ TEST(Traffic, BalancesTermByTerm) {
 // One grain lies on the floor, another falls onto it with a hundred times the Earth's gravity.
 constexpr double kDropGravity = 100 * kGravity, kDropHeight = 4 * kRadius;
 constexpr std::int64_t kDropSteps = 3000;
-NewGrain falling(double t) {
+ComingGrain falling(double t) {
     return {0,
             kRadius,
             kDensity,
@@ -338,7 +338,7 @@ TEST(Traffic, NoIdIsUsedTwice) {
     w.start();
     w.loop->remove({3, 1, 17}, 0);
     EXPECT_EQ(w.grains.id, (std::vector<std::int32_t>{0, 2}));
-    NewGrain grain{0, kRadius, kDensity, Vec3(1, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
+    ComingGrain grain{0, kRadius, kDensity, Vec3(1, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
     EXPECT_EQ(w.loop->insert({grain}), 4);
     w.loop->remove({0, 2, 4}, 0);
     EXPECT_EQ(w.grains.size(), 0u);
@@ -379,7 +379,7 @@ TEST(Traffic, MayBeginWithNobody) {
 // The run is saved after some grains left, and between an insertion and the step that follows it.
 TEST(Traffic, GoesOnFromACheckpointToTheSameBits) {
     const auto add_some = [](HandMadeBed& w) {
-        std::vector<NewGrain> rain;
+        std::vector<ComingGrain> rain;
         for (int i = 0; i < 6; ++i)
             rain.push_back(
                 {0, kRadius, kDensity, Vec3(4.3e-3 * i, -0.02, 0.03), Vec3(0, 0, -0.5), Vec3(0, 0, 0)});

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/measure/columns.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/state/container_faces.hpp"
@@ -84,11 +84,11 @@ TEST(Tray, KeepsAllThatFlowsOut) {
     const Scene scene = scene_of({"output.instruments=[\"outflow\"]"});
     const Plan plan = make_plan(scene);
     EXPECT_FALSE(plan.traffic);
-    Simulation run(scene, plan, 1);
+    SimulatedBed run(scene, plan, 1);
     run.pack();
     run.advance(plan.steps);
     EXPECT_EQ(run.traffic().left, 0);
-    const Frame frame = run.frame();
+    const State frame = run.frame();
     ASSERT_EQ(frame.size(), 60u);
     int below = 0;
     double mass = 0;
@@ -107,13 +107,13 @@ TEST(Tray, TheSameBitsAtAnyNumberOfThreadsAndThroughACheckpoint) {
     const test::TemporaryFolder here;
     const Scene scene = scene_of({"run.duration=0.12 s"});
     const Plan plan = make_plan(scene);
-    Simulation first(scene, plan, 1);
+    SimulatedBed first(scene, plan, 1);
     first.pack();
     first.advance(plan.steps / 2);
     first.save_checkpoint(here / "a.grs");
     first.advance(plan.steps);
     for (const int threads : {2, 3}) {
-        Simulation whole(scene, plan, threads);
+        SimulatedBed whole(scene, plan, threads);
         whole.pack();
         whole.advance(plan.steps);
         EXPECT_EQ(whole.state_hash(), first.state_hash()) << threads;
@@ -121,7 +121,7 @@ TEST(Tray, TheSameBitsAtAnyNumberOfThreadsAndThroughACheckpoint) {
         next.start.method = Start::Method::file;
         next.start.file = (here / "a.grs").string();
         next.start.keep_clock = true;
-        Simulation taken_up(next, plan, threads);
+        SimulatedBed taken_up(next, plan, threads);
         taken_up.pack();
         taken_up.advance(plan.steps);
         EXPECT_EQ(taken_up.state_hash(), first.state_hash()) << threads;

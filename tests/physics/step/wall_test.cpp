@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/state/body.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
 #include "tests/physics/world.hpp"
 
 namespace grainreel {
@@ -138,7 +138,7 @@ TEST(Drive, DragsARollingBallByTwoSeventhsOfItsMotion) {
     w.plan.clock.steps_per_period = 20000;
     w.around.faces = {floor_face()};
     w.around.faces[0].body.driven = true;
-    w.around.motion = WallMotion(drive, w.plan.clock);
+    w.around.motion = DriveMotion(drive, w.plan.clock);
     w.around.gravity = {0, 0, -9.81};
     const double sink = sphere_mass() * 9.81 / kStiffness;
     w.grains.add(0, 0, Vec3(0, 0, kRadius - sink), kRadius, kDensity);
@@ -162,7 +162,7 @@ TEST(Drive, FollowsItsSineAndItsVelocityIsItsDerivative) {
     clock.initial_phase = drive.phase;
     for (const double ramp : {3.0, 0.0}) {
         drive.ramp = ramp;
-        const WallMotion motion(drive, clock);
+        const DriveMotion motion(drive, clock);
         EXPECT_EQ(motion.at(0).offset.z(), 0);
         EXPECT_EQ(motion.at(-5).velocity.z(), 0);
         const double speed = drive.speed();
@@ -183,16 +183,16 @@ TEST(Drive, FollowsItsSineAndItsVelocityIsItsDerivative) {
     drive.ramp = 3;
     const double u = 80.0 / 8000 / drive.ramp;
     const double bound = (30 * u * u / (2 * std::numbers::pi * drive.ramp) + 10 * u * u * u) * drive.speed();
-    EXPECT_LT(std::abs(WallMotion(drive, clock).at(80).velocity.z()), bound);
+    EXPECT_LT(std::abs(DriveMotion(drive, clock).at(80).velocity.z()), bound);
 }
 
 // Places follow the formula of the drive for bodies that follow it, and v t for a plane's own velocity.
 TEST(Bodies, AreWhereTheirFacesAre) {
-    FreeWall still, sliding, shaken;
+    ScenePlane still, sliding, shaken;
     sliding.velocity = Vec3(0, 0.3, -0.1);
     shaken.moves = true;
-    const std::vector<FreeWall> planes{still, sliding, shaken};
-    const Pose stroke{Vec3(0, 0, 0.002), Vec3(0, 0, -0.7), 0.25};
+    const std::vector<ScenePlane> planes{still, sliding, shaken};
+    const DrivePose stroke{Vec3(0, 0, 0.002), Vec3(0, 0, -0.7), 0.25};
     for (const auto moves : {Drive::Moves::container, Drive::Moves::floor}) {
         Drive drive;
         drive.present = true;

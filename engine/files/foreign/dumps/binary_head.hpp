@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/files/foreign/byte_source.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/stored_world.hpp"
 
 namespace grainreel {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/stored_world.hpp"
 
 namespace grainreel {
 

@@ -190,7 +190,7 @@ void LammpsBinary::check_numbers(const RawTable& table, const BinaryHead& head) 
                                 bad->row + 1, bad->words()));
 }
 
-bool takes_binary_dump(const FileHead& head) {
+bool takes_binary_dump(const FileStart& head) {
     return binary_form_of(head.bytes).has_value();
 }
 

@@ -137,7 +137,7 @@ class LammpsText : public RawFile {
 };
 
 void LammpsText::refuse_yaml() const {
-    const FileHead head = unpacked_head(file_);
+    const FileStart head = unpacked_head(file_);
     if (head.bytes.starts_with("---"))
         throw UserError(
             fmt::format("{}: a dump in YAML (dump yaml), which is not read; let LAMMPS write dump custom, or "
@@ -252,7 +252,7 @@ bool LammpsText::grow() {
 
 // Whether one of the first lines begins with "ITEM: ". A dump in YAML is taken too, and refused with a
 // message when it is opened.
-bool takes_text_dump(const FileHead& head) {
+bool takes_text_dump(const FileStart& head) {
     std::string_view text = head.bytes;
     drop_byte_order_mark(text);
     constexpr std::size_t first_items = 2000;  // bytes

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/files/foreign/dumps/text_rows.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/stored_world.hpp"
 
 namespace grainreel {
 

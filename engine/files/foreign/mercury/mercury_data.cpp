@@ -157,7 +157,7 @@ RawFrame MercuryData::read_frame(LineReader& lines, const RawMoment& moment) con
     return frame;
 }
 
-bool takes_mercury_data(const FileHead& head) {
+bool takes_mercury_data(const FileStart& head) {
     if (head.folder) return false;
     const std::vector<std::string_view> lines = lines_of(head, 2);
     if (lines.empty()) return false;
@@ -300,7 +300,7 @@ RawFrame MercuryContacts::read_frame(LineReader& lines, const RawMoment& moment)
     return frame;
 }
 
-bool takes_mercury_contacts(const FileHead& head) {
+bool takes_mercury_contacts(const FileStart& head) {
     if (head.folder) return false;
     const std::vector<std::string_view> lines = lines_of(head, 3);
     return lines.size() == 3 && contacts_header_of({numbers_of_remark(lines[0]), numbers_of_remark(lines[1]),

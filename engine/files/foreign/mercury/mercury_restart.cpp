@@ -23,7 +23,7 @@
 #include "engine/files/foreign/line_reader.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/stored_world.hpp"
 
 namespace grainreel {
 
@@ -383,7 +383,7 @@ void MercuryRestart::finish() {
     moments_.push_back(moment);
 }
 
-bool takes_mercury_restart(const FileHead& head) {
+bool takes_mercury_restart(const FileStart& head) {
     const std::string_view bytes = head.bytes;
     return !head.folder && (bytes.starts_with("MercuryDPM ") || bytes.starts_with("restart_version "));
 }

@@ -58,7 +58,7 @@ struct Ranges {
     }
 };
 
-std::optional<TableLayout> layout_at(const FileHead& head) {
+std::optional<TableLayout> layout_at(const FileStart& head) {
     return layout_of(head.bytes, head.bytes.size() < kHeadBytes);
 }
 
@@ -268,7 +268,7 @@ RawFrame NumberTable::read(std::size_t index) const {
     return frame;
 }
 
-bool takes_table(const FileHead& head) {
+bool takes_table(const FileStart& head) {
     return !head.folder && layout_at(head).has_value();
 }
 

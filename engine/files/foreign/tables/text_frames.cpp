@@ -20,7 +20,7 @@ bool blank(std::string_view line) {
 
 }  // namespace
 
-std::vector<std::string_view> lines_of(const FileHead& head, std::size_t most) {
+std::vector<std::string_view> lines_of(const FileStart& head, std::size_t most) {
     std::string_view rest = head.bytes;
     drop_byte_order_mark(rest);
     std::vector<std::string_view> lines;

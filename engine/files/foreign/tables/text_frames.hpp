@@ -18,7 +18,7 @@ namespace grainreel {
 
 // At most `most` whole lines from the first bytes of a file, without blank lines. A format is recognised by
 // them.
-std::vector<std::string_view> lines_of(const FileHead& head, std::size_t most);
+std::vector<std::string_view> lines_of(const FileStart& head, std::size_t most);
 
 // A text file in which frames follow each other. One pass over the file finds where each frame begins.
 class TextFrames : public RawFile {

@@ -18,7 +18,7 @@
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 #include "engine/files/foreign/tables/text_frames.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/stored_world.hpp"
 
 namespace grainreel {
 
@@ -378,7 +378,7 @@ RawFrame XyzFile::read_frame(LineReader& lines, const RawMoment& moment) const {
     return frame;
 }
 
-bool takes_xyz(const FileHead& head) {
+bool takes_xyz(const FileStart& head) {
     if (head.folder) return false;
     std::string_view rest = head.bytes;
     constexpr std::string_view mark = "\xef\xbb\xbf";

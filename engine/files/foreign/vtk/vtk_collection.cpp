@@ -217,7 +217,7 @@ CollectionList collection_list(const fs::path& file) {
 }
 
 // Whether a file begins as a list of VTK files does.
-bool takes_collection(const FileHead& head) {
+bool takes_collection(const FileStart& head) {
     const std::string type = vtk_file_type(head.bytes);
     return type == "Collection" || is_block_type(type) || (type.empty() && is_series(head.bytes));
 }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/files/foreign/raw_file.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/stored_world.hpp"
 
 namespace grainreel {
 
@@ -130,7 +130,7 @@ RawFormat vtk_legacy_format();
 // cannot be read.
 VtkContents read_vtk_legacy(const std::filesystem::path& file, VtkPart part);
 
-bool takes_vtk_legacy(const FileHead& head);
+bool takes_vtk_legacy(const FileStart& head);
 
 // The walls in the surface cells of a data set: one wall with the cell data as its columns. For dumps of
 // LIGGGHTS, which have an array "meshid", a wall for each mesh. Empty where there are no surface cells.

@@ -319,7 +319,7 @@ VtkContents read_vtk_legacy(const fs::path& file, VtkPart part) {
     return contents;
 }
 
-bool takes_vtk_legacy(const FileHead& head) {
+bool takes_vtk_legacy(const FileStart& head) {
     constexpr std::string_view begin = "# vtk datafile version";
     return same_word(std::string_view(head.bytes).substr(0, begin.size()), begin);
 }

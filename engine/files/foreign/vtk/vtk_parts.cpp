@@ -145,7 +145,7 @@ std::vector<VtkPartFile> files_of_blocks(const fs::path& file, const XmlTree& tr
 
 void add_part(const VtkPartFile& part_file, VtkPart part, VtkParts& parts, int depth) {
     const fs::path& file = part_file.file;
-    const FileHead head = unpacked_head(file);
+    const FileStart head = unpacked_head(file);
     const std::string type = vtk_file_type(head.bytes);
     if (part_file.name == domain_name && (is_grid(type) || type == "UnstructuredGrid"))
         return add_domain(file, type, parts);
@@ -303,7 +303,7 @@ bool holds_facets(std::string_view bytes) {
 
 }  // namespace
 
-bool takes_wall_surface(const FileHead& head) {
+bool takes_wall_surface(const FileStart& head) {
     const std::string_view bytes = head.bytes;
     if (bytes.size() > 3 && bytes.starts_with("ply") && std::strchr("\r\n \t", bytes[3]) != nullptr)
         return true;

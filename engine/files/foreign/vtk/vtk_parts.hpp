@@ -43,7 +43,7 @@ bool is_block_type(std::string_view type);
 // of an STL.
 RawFormat wall_surface_format();
 
-bool takes_wall_surface(const FileHead& head);
+bool takes_wall_surface(const FileStart& head);
 
 // Reads the walls in the file's unit, without mending them. Throws UserError with file and line or byte.
 std::vector<RawWall> read_wall_surface(const std::filesystem::path& file);

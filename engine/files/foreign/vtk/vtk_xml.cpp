@@ -123,7 +123,7 @@ void add_pieces_of(const fs::path& file, const XmlElement& piece, VtkPart part, 
     std::move(more.pieces.begin(), more.pieces.end(), std::back_inserter(contents.pieces));
 }
 
-bool takes_vtk_xml(const FileHead& head) {
+bool takes_vtk_xml(const FileStart& head) {
     const std::string type = vtk_file_type(head.bytes);
     return !type.empty() && type != "Collection" && type != "vtkMultiBlockDataSet" &&
            type != "vtkPartitionedDataSetCollection" && type != "vtkPartitionedDataSet";

@@ -205,7 +205,7 @@ bool count_piece(const XmlArrays& arrays, const XmlElement& piece, RawMoment& mo
 }  // namespace
 
 bool count_by_head(const VtkPartFile& part_file, bool time_known, VtkParts& parts) {
-    const FileHead head = unpacked_head(part_file.file);
+    const FileStart head = unpacked_head(part_file.file);
     if (vtk_file_type(head.bytes) != "PolyData" || head.bytes.find("<AppendedData") == std::string::npos)
         return false;
     try {

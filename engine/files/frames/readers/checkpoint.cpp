@@ -7,12 +7,12 @@
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/files/damage.hpp"
-#include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/checkpoint_file.hpp"
 #include "engine/state/container_faces.hpp"
-#include "engine/state/wall_motion.hpp"
+#include "engine/state/drive_motion.hpp"
 
 namespace grainreel {
 
@@ -43,8 +43,8 @@ CheckpointFile whole_file(const fs::path& path) {
 }
 
 // The grains by rising id, as in all frames, with x within the period along the depth (0: not periodic).
-Frame frame_of(const Grains& grains, double period) {
-    Frame frame;
+State frame_of(const Grains& grains, double period) {
+    State frame;
     frame.id = grains.id;
     frame.species = grains.species;
     frame.orientation = grains.orientation;
@@ -59,7 +59,7 @@ Frame frame_of(const Grains& grains, double period) {
     return sorted_by_id(frame);
 }
 
-class Checkpoint final : public FrameArchive {
+class Checkpoint final : public StateArchive {
   public:
     explicit Checkpoint(const fs::path& path)
         : path_(path), scene_(scene_of_checkpoint(path)), world_(world_of(scene_)) {
@@ -71,42 +71,42 @@ class Checkpoint final : public FrameArchive {
         frame_.time = clock.time(frame_.step);
         frame_.cycles = clock.cycles(frame_.step);
         frame_.phase = clock.phase(frame_.step);
-        frame_.bodies = poses_of(bodies_of(scene_), WallMotion(scene_.drive, clock).at(frame_.step));
+        frame_.bodies = poses_of(bodies_of(scene_), DriveMotion(scene_.drive, clock).at(frame_.step));
         if (moment_fault(frame_) || grains_fault(frame_, scene_.species.size())) damaged(path);
         moments_ = {moment_of(frame_)};
         world_.most_grains = frame_.size();
     }
 
     const fs::path& path() const override { return path_; }
-    const World& world() const override { return world_; }
-    FrameSupply supply() const override {
-        FrameSupply supply;
+    const StoredWorld& world() const override { return world_; }
+    StateSupply supply() const override {
+        StateSupply supply;
         supply.orientations = !frame_.orientation.empty();
         return supply;
     }
-    const std::vector<Frame>& moments() const override { return moments_; }
-    Frame grains(std::size_t) const override { return frame_; }
+    const std::vector<State>& moments() const override { return moments_; }
+    State grains(std::size_t) const override { return frame_; }
     const Scene* scene() const override { return &scene_; }
 
   private:
     fs::path path_;
     Scene scene_;
-    World world_;
-    Frame frame_;
-    std::vector<Frame> moments_;
+    StoredWorld world_;
+    State frame_;
+    std::vector<State> moments_;
 };
 
-bool takes(const FileHead& head) {
+bool takes(const FileStart& head) {
     return !head.folder && begins_checkpoint(head.bytes);
 }
 
-std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest&) {
+std::unique_ptr<StateArchive> open(const fs::path& path, const OpenRequest&) {
     return std::make_unique<Checkpoint>(path);
 }
 
 }  // namespace
 
-FrameReader checkpoint_reader() {
+ReadFormat checkpoint_reader() {
     return {"checkpoint", "a checkpoint (checkpoint.grs)", takes, open};
 }
 

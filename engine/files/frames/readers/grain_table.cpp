@@ -6,8 +6,8 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
-#include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "engine/files/frames/state_archive.hpp"
 #include "engine/files/outflow_csv.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/state/container_faces.hpp"
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::int32_t most_types = 1000;
 
 // The species of a table without a scene: named by their numbers, with the mean diameter of their grains.
-std::vector<WorldSpecies> types_of(const Frame& frame, std::int32_t last) {
+std::vector<WorldSpecies> types_of(const State& frame, std::int32_t last) {
     std::vector<WorldSpecies> types(static_cast<std::size_t>(last) + 1);
     for (std::size_t type = 0; type < types.size(); ++type)
         types[type].name = fmt::format("type {}", type + 1);
@@ -36,9 +36,9 @@ std::vector<WorldSpecies> types_of(const Frame& frame, std::int32_t last) {
     return types;
 }
 
-class GrainTable final : public FrameArchive {
+class GrainTable final : public StateArchive {
   public:
-    GrainTable(const fs::path& file, const FrameRequest& request)
+    GrainTable(const fs::path& file, const OpenRequest& request)
         : file_(file), frame_(sorted_by_id(read_grain_table(file))) {
         frame_.time = frame_.cycles = kUnknown;
         news_.push_back(fmt::format(
@@ -50,19 +50,19 @@ class GrainTable final : public FrameArchive {
     }
 
     const fs::path& path() const override { return file_; }
-    const World& world() const override { return world_; }
-    FrameSupply supply() const override {
-        FrameSupply supply;
+    const StoredWorld& world() const override { return world_; }
+    StateSupply supply() const override {
+        StateSupply supply;
         supply.orientations = !frame_.orientation.empty();
         return supply;
     }
-    const std::vector<Frame>& moments() const override { return moments_; }
-    Frame grains(std::size_t) const override { return frame_; }
+    const std::vector<State>& moments() const override { return moments_; }
+    State grains(std::size_t) const override { return frame_; }
     const Scene* scene() const override { return scene_ ? &*scene_ : nullptr; }
     std::vector<std::string> news() const override { return news_; }
 
   private:
-    void read_scene_beside(const FrameRequest& request) {
+    void read_scene_beside(const OpenRequest& request) {
         const std::int32_t last = *std::max_element(frame_.species.begin(), frame_.species.end());
         const fs::path beside = file_.parent_path();
         std::error_code error;
@@ -100,24 +100,24 @@ class GrainTable final : public FrameArchive {
     }
 
     fs::path file_;
-    Frame frame_;
-    std::vector<Frame> moments_;
+    State frame_;
+    std::vector<State> moments_;
     std::optional<Scene> scene_;
-    World world_;
+    StoredWorld world_;
     std::vector<std::string> news_;
 };
 
-bool takes(const FileHead& head) {
+bool takes(const FileStart& head) {
     return !head.folder && begins_grain_table(head.bytes);
 }
 
-std::unique_ptr<FrameArchive> open(const fs::path& path, const FrameRequest& request) {
+std::unique_ptr<StateArchive> open(const fs::path& path, const OpenRequest& request) {
     return std::make_unique<GrainTable>(path, request);
 }
 
 }  // namespace
 
-FrameReader grain_table_reader() {
+ReadFormat grain_table_reader() {
     return {"grain-table", "a table of grains (final.csv)", takes, open};
 }
 

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/frame_archive.hpp"
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/state_archive.hpp"
+#include "engine/files/frames/stored_world.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/state/body.hpp"
 #include "engine/state/container_faces.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Trajectory final : public FrameArchive {
+class Trajectory final : public StateArchive {
   public:
     // path: the file, or the folder of a run with its scene.
     Trajectory(const fs::path& path, const fs::path& file, std::optional<Scene> scene)
@@ -42,15 +42,15 @@ class Trajectory final : public FrameArchive {
     }
 
     const fs::path& path() const override { return path_; }
-    const World& world() const override { return world_; }
-    FrameSupply supply() const override {
-        FrameSupply supply;
+    const StoredWorld& world() const override { return world_; }
+    StateSupply supply() const override {
+        StateSupply supply;
         supply.orientations = reader_.info().orientation;
         supply.contact_numbers = reader_.info().contact_numbers;
         return supply;
     }
-    const std::vector<Frame>& moments() const override { return moments_; }
-    Frame grains(std::size_t index) const override { return with_planes(reader_.read(places_.at(index))); }
+    const std::vector<State>& moments() const override { return moments_; }
+    State grains(std::size_t index) const override { return with_planes(reader_.read(places_.at(index))); }
     const Scene* scene() const override { return scene_ ? &*scene_ : nullptr; }
     std::size_t place(std::size_t index) const override { return places_.at(index); }
     std::vector<std::string> damage() const override { return damage_; }
@@ -73,13 +73,13 @@ class Trajectory final : public FrameArchive {
         const std::string name = (path_ / "trajectory.nc").string();
         check_species(*scene_, world_, name);
         check_meshes(*scene_, world_, name);
-        const World in_file = std::exchange(world_, world_of(*scene_));
+        const StoredWorld in_file = std::exchange(world_, world_of(*scene_));
         world_.program_version = in_file.program_version;
         world_.most_grains = in_file.most_grains;
         world_.traffic = in_file.traffic;
     }
 
-    Frame with_planes(Frame frame) const {
+    State with_planes(State frame) const {
         if (scene_) add_planes(scene_->walls, frame.time, frame.bodies);
         return frame;
     }
@@ -87,29 +87,29 @@ class Trajectory final : public FrameArchive {
     fs::path path_;
     TrajectoryReader reader_;
     std::optional<Scene> scene_;  // of the folder of a run
-    World world_;
-    std::vector<Frame> moments_;
+    StoredWorld world_;
+    std::vector<State> moments_;
     std::vector<std::size_t> places_;  // one for each moment: the number of its frame in the file
     std::vector<std::string> damage_;
 };
 
 // A trajectory of ours is a classic NetCDF file that names the convention and this program.
-bool takes_trajectory(const FileHead& head) {
+bool takes_trajectory(const FileStart& head) {
     const auto says = [&](const char* text) { return head.bytes.find(text) != std::string::npos; };
     return head.bytes.starts_with("CDF") && says("AMBER") && says("grainreel");
 }
 
-std::unique_ptr<FrameArchive> open_trajectory(const fs::path& path, const FrameRequest&) {
+std::unique_ptr<StateArchive> open_trajectory(const fs::path& path, const OpenRequest&) {
     return std::make_unique<Trajectory>(path, path, std::nullopt);
 }
 
-bool takes_run(const FileHead& head) {
+bool takes_run(const FileStart& head) {
     std::error_code ignored;
     return head.folder && (fs::exists(head.path / "scene.toml", ignored) ||
                            fs::exists(head.path / "trajectory.nc", ignored));
 }
 
-std::unique_ptr<FrameArchive> open_run(const fs::path& path, const FrameRequest& request) {
+std::unique_ptr<StateArchive> open_run(const fs::path& path, const OpenRequest& request) {
     const fs::path folder = folder_of_run(path);
     return std::make_unique<Trajectory>(
         folder, file_of_run(folder, "trajectory.nc", kWithoutTrajectory),
@@ -118,11 +118,11 @@ std::unique_ptr<FrameArchive> open_run(const fs::path& path, const FrameRequest&
 
 }  // namespace
 
-FrameReader trajectory_reader() {
+ReadFormat trajectory_reader() {
     return {"trajectory", "the trajectory.nc of a run", takes_trajectory, open_trajectory};
 }
 
-FrameReader run_folder_reader() {
+ReadFormat run_folder_reader() {
     return {"run", "the folder of a run (scene.toml and trajectory.nc)", takes_run, open_run};
 }
 

@@ -12,8 +12,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/state_writer.hpp"
+#include "engine/files/frames/stored_world.hpp"
 
 namespace grainreel {
 
@@ -173,7 +173,7 @@ if words[:1] == ["--render"]:
 )";
 }
 
-class Blender final : public FrameWriter {
+class Blender final : public StateWriter {
   public:
     explicit Blender(const fs::path& folder) : folder_(folder) {
         std::error_code error;
@@ -182,7 +182,7 @@ class Blender final : public FrameWriter {
         out_.open(folder_ / "bed.bin", std::ios::binary | std::ios::trunc);
     }
 
-    void begin(const World& world, const FrameSupply&) override {
+    void begin(const StoredWorld& world, const StateSupply&) override {
         surfaces_ = surfaces_of(world);
         head_["program"] = "grainreel";
         head_["title"] = world.title;
@@ -199,7 +199,7 @@ class Blender final : public FrameWriter {
     }
     // A frame is the species of all grains, their ids (int32), then x, y, z and radius of each grain
     // (float32). frame_of() in the script above reads this layout.
-    void frame(const Frame& frame, const std::vector<Touch>&) override {
+    void frame(const State& frame, const std::vector<Link>&) override {
         nlohmann::json poses = nlohmann::json::array();
         for (const WorldSurface& surface : surfaces_) {
             const BodyPose pose = frame.body(surface.body);
@@ -245,7 +245,7 @@ class Blender final : public FrameWriter {
 
 }  // namespace
 
-FrameFormat blender_format() {
+WriteFormat blender_format() {
     return {"blender", "folder for Blender: all frames, and a script that builds the moving bed", "-blender",
             make_writer<Blender>};
 }

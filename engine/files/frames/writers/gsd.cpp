@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/frame_writer.hpp"
+#include "engine/files/frames/state_writer.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
@@ -38,19 +38,19 @@ void append(std::string& to, const T& value) {
     to.append(raw, sizeof(T));
 }
 
-class Gsd final : public FrameWriter {
+class Gsd final : public StateWriter {
   public:
     explicit Gsd(const std::filesystem::path& path)
         : path_(path), out_(path, std::ios::binary | std::ios::trunc) {
         put(std::string(256, '\0'));
     }
 
-    void begin(const World& world, const FrameSupply& supply) override {
+    void begin(const StoredWorld& world, const StateSupply& supply) override {
         world_ = world;
         supply_ = supply;
     }
 
-    void frame(const Frame& frame, const std::vector<Touch>&) override {
+    void frame(const State& frame, const std::vector<Link>&) override {
         const std::size_t n = frame.size();
         const WorldCell box = box_of(world_, frame);
         Vec3 shift(0, 0, 0);
@@ -179,8 +179,8 @@ class Gsd final : public FrameWriter {
 
     std::filesystem::path path_;
     std::ofstream out_;
-    World world_;
-    FrameSupply supply_;
+    StoredWorld world_;
+    StateSupply supply_;
     std::vector<Entry> entries_;
     std::vector<std::string> names_;
     std::uint64_t place_ = 0, frames_ = 0;
@@ -188,7 +188,7 @@ class Gsd final : public FrameWriter {
 
 }  // namespace
 
-FrameFormat gsd_writer_format() {
+WriteFormat gsd_writer_format() {
     return {"gsd", "GSD with schema hoomd, floats", ".gsd", make_writer<Gsd>};
 }
 

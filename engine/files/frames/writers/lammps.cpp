@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/frame_writer.hpp"
+#include "engine/files/frames/state_writer.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
@@ -13,15 +13,15 @@ namespace grainreel {
 namespace {
 
 // A data file with atom_style sphere (LAMMPS manual, command read_data).
-class LammpsData final : public FrameWriter {
+class LammpsData final : public StateWriter {
   public:
     explicit LammpsData(const std::filesystem::path& path) : path_(path) {}
 
-    void begin(const World& world, const FrameSupply&) override { world_ = world; }
-    void frame(const Frame& frame, const std::vector<Touch>&) override { last_ = frame; }
+    void begin(const StoredWorld& world, const StateSupply&) override { world_ = world; }
+    void frame(const State& frame, const std::vector<Link>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame to make a data file of");
-        const Frame& frame = *last_;
+        const State& frame = *last_;
         TextPieces out(path_);
         std::string& text = out.text();
         const WorldCell box = box_of(world_, frame);
@@ -74,22 +74,22 @@ class LammpsData final : public FrameWriter {
     }
 
     std::filesystem::path path_;
-    World world_;
-    std::optional<Frame> last_;
+    StoredWorld world_;
+    std::optional<State> last_;
 };
 
 // A text dump as LAMMPS writes it (manual, command dump custom). OVITO reads it, and so does `read_dump` of
 // LAMMPS and LIGGGHTS.
-class LammpsDump final : public FrameWriter {
+class LammpsDump final : public StateWriter {
   public:
     explicit LammpsDump(const std::filesystem::path& path) : out_(path) {}
 
-    void begin(const World& world, const FrameSupply& supply) override {
+    void begin(const StoredWorld& world, const StateSupply& supply) override {
         world_ = world;
         supply_ = supply;
         out_.text() += "ITEM: UNITS\nsi\n";
     }
-    void frame(const Frame& frame, const std::vector<Touch>&) override {
+    void frame(const State& frame, const std::vector<Link>&) override {
         std::string& text = out_.text();
         const WorldCell box = box_of(world_, frame);
         if (world_.time_known) text += fmt::format("ITEM: TIME\n{}\n", frame.time);
@@ -136,18 +136,18 @@ class LammpsDump final : public FrameWriter {
     }
 
     TextPieces out_;
-    World world_;
-    FrameSupply supply_;
+    StoredWorld world_;
+    StateSupply supply_;
 };
 
 }  // namespace
 
-FrameFormat lammps_data_format() {
+WriteFormat lammps_data_format() {
     return {"lammps-data", "data file of LAMMPS (read_data, atom_style sphere), of the last frame", ".data",
             make_writer<LammpsData>};
 }
 
-FrameFormat lammps_dump_format() {
+WriteFormat lammps_dump_format() {
     return {"lammps-dump", "text dump of LAMMPS and LIGGGHTS; OVITO opens it", ".dump",
             make_writer<LammpsDump>};
 }

@@ -13,8 +13,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/state_writer.hpp"
+#include "engine/files/frames/stored_world.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
@@ -170,12 +170,12 @@ Sphere unit_sphere() {
     return sphere;
 }
 
-class Gltf final : public FrameWriter {
+class Gltf final : public StateWriter {
   public:
     explicit Gltf(std::filesystem::path path) : path_(std::move(path)) {}
 
-    void begin(const World& world, const FrameSupply&) override { world_ = world; }
-    void frame(const Frame& frame, const std::vector<Touch>&) override { last_ = frame; }
+    void begin(const StoredWorld& world, const StateSupply&) override { world_ = world; }
+    void frame(const State& frame, const std::vector<Link>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame");
         Glb glb;
@@ -222,21 +222,21 @@ class Gltf final : public FrameWriter {
     }
 
     std::filesystem::path path_;
-    World world_;
-    std::optional<Frame> last_;
+    StoredWorld world_;
+    std::optional<State> last_;
 };
 
 // Binary STL of the walls, where they are in the last frame.
-class Stl final : public FrameWriter {
+class Stl final : public StateWriter {
   public:
     explicit Stl(std::filesystem::path path) : path_(std::move(path)) {}
 
-    void begin(const World& world, const FrameSupply&) override {
+    void begin(const StoredWorld& world, const StateSupply&) override {
         surfaces_ = surfaces_of(world);
         if (surfaces_.empty())
             throw UserError(path_.string() + ": the run has no walls, and STL has nothing but walls");
     }
-    void frame(const Frame& frame, const std::vector<Touch>&) override { last_ = frame; }
+    void frame(const State& frame, const std::vector<Link>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame");
         std::string bytes(80, '\0');
@@ -271,17 +271,17 @@ class Stl final : public FrameWriter {
 
     std::filesystem::path path_;
     std::vector<WorldSurface> surfaces_;
-    std::optional<Frame> last_;
+    std::optional<State> last_;
 };
 
 }  // namespace
 
-FrameFormat gltf_format() {
+WriteFormat gltf_format() {
     return {"gltf", "glTF 2.0 (.glb) of the last frame: instanced spheres and walls", ".glb",
             make_writer<Gltf>};
 }
 
-FrameFormat stl_format() {
+WriteFormat stl_format() {
     return {"stl", "walls as binary STL, where they are in the last frame", ".stl", make_writer<Stl>};
 }
 

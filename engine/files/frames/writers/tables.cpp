@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/frame_writer.hpp"
+#include "engine/files/frames/state_writer.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -13,11 +13,11 @@ namespace grainreel {
 namespace {
 
 // One long table with a row for each grain of each frame, for spreadsheets, pandas and R.
-class Csv final : public FrameWriter {
+class Csv final : public StateWriter {
   public:
     explicit Csv(const std::filesystem::path& path) : out_(path) {}
 
-    void begin(const World& world, const FrameSupply& supply) override {
+    void begin(const StoredWorld& world, const StateSupply& supply) override {
         world_ = world;
         supply_ = supply;
         if (world.time_known) out_.text() += "time,";
@@ -26,7 +26,7 @@ class Csv final : public FrameWriter {
         if (supply.contact_numbers) out_.text() += ",contact_number";
         out_.text() += '\n';
     }
-    void frame(const Frame& frame, const std::vector<Touch>&) override {
+    void frame(const State& frame, const std::vector<Link>&) override {
         for (std::size_t i = 0; i < frame.size(); ++i) {
             std::string& text = out_.text();
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
@@ -47,17 +47,17 @@ class Csv final : public FrameWriter {
 
   private:
     TextPieces out_;
-    World world_;
-    FrameSupply supply_;
+    StoredWorld world_;
+    StateSupply supply_;
 };
 
 // A table of grains as in final.csv, of the last frame.
-class GrainTable final : public FrameWriter {
+class GrainTable final : public StateWriter {
   public:
     explicit GrainTable(std::filesystem::path path) : path_(std::move(path)) {}
 
-    void begin(const World&, const FrameSupply&) override {}
-    void frame(const Frame& frame, const std::vector<Touch>&) override { last_ = frame; }
+    void begin(const StoredWorld&, const StateSupply&) override {}
+    void frame(const State& frame, const std::vector<Link>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame to make a table of");
         write_grain_table(path_, *last_);
@@ -65,21 +65,21 @@ class GrainTable final : public FrameWriter {
 
   private:
     std::filesystem::path path_;
-    std::optional<Frame> last_;
+    std::optional<State> last_;
 };
 
 // Extended XYZ by the rules of ASE and OVITO. Columns are element, pos, radius, velo, omega and id; Lattice
 // and pbc give the box. Names of species stand in `element`, because ASE takes a column `species` for symbols
 // of the periodic table and stops at "Small".
-class Xyz final : public FrameWriter {
+class Xyz final : public StateWriter {
   public:
     explicit Xyz(const std::filesystem::path& path) : out_(path) {}
 
-    void begin(const World& world, const FrameSupply& supply) override {
+    void begin(const StoredWorld& world, const StateSupply& supply) override {
         world_ = world;
         supply_ = supply;
     }
-    void frame(const Frame& frame, const std::vector<Touch>&) override {
+    void frame(const State& frame, const std::vector<Link>&) override {
         std::string& text = out_.text();
         const WorldCell box = box_of(world_, frame);
         const auto edge = [](const Vec3& e) { return fmt::format("{} {} {}", e.x(), e.y(), e.z()); };
@@ -110,23 +110,23 @@ class Xyz final : public FrameWriter {
     }
 
     TextPieces out_;
-    World world_;
-    FrameSupply supply_;
+    StoredWorld world_;
+    StateSupply supply_;
 };
 
 }  // namespace
 
-FrameFormat csv_format() {
+WriteFormat csv_format() {
     return {"csv", "one table of all frames, SI units: for spreadsheets, pandas and R", ".csv",
             make_writer<Csv>};
 }
 
-FrameFormat grain_table_format() {
+WriteFormat grain_table_format() {
     return {"grain-table", "a table of grains (final.csv), of the last frame", ".csv",
             make_writer<GrainTable>};
 }
 
-FrameFormat xyz_writer_format() {
+WriteFormat xyz_writer_format() {
     return {"xyz", "extended XYZ, as ASE and OVITO read it", ".xyz", make_writer<Xyz>};
 }
 

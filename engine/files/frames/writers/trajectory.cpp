@@ -11,26 +11,26 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/state_writer.hpp"
+#include "engine/files/frames/stored_world.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
 
 namespace grainreel {
 
 namespace {
 
-class Trajectory final : public FrameWriter {
+class Trajectory final : public StateWriter {
   public:
     explicit Trajectory(std::filesystem::path path) : path_(std::move(path)) {}
 
-    void begin(const World& world, const FrameSupply& supply) override {
+    void begin(const StoredWorld& world, const StateSupply& supply) override {
         if (!world.time_known)
             throw RunError(path_.string() +
                            ": a trajectory has times, and those of these frames are not known");
         info_ = trajectory_info(world, supply);
         if (info_.capacity > 0) writer_.emplace(path_, info_);
     }
-    void frame(const Frame& frame, const std::vector<Touch>&) override {
+    void frame(const State& frame, const std::vector<Link>&) override {
         count(frame);
         if (!writer_) {
             info_.capacity = std::max<std::size_t>(1, most_);
@@ -49,7 +49,7 @@ class Trajectory final : public FrameWriter {
 
   private:
     // In a file with traffic each grain that ever was there keeps its place.
-    void count(const Frame& frame) {
+    void count(const State& frame) {
         most_ = std::max(most_, frame.size());
         if (!info_.traffic || std::includes(seen_.begin(), seen_.end(), frame.id.begin(), frame.id.end()))
             return;
@@ -93,7 +93,7 @@ class Trajectory final : public FrameWriter {
 
 }  // namespace
 
-FrameFormat trajectory_format() {
+WriteFormat trajectory_format() {
     return {"netcdf", "a trajectory.nc, as runs have it; OVITO and any AMBER reader open it", ".nc",
             make_writer<Trajectory>};
 }

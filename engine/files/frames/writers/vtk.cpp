@@ -13,8 +13,8 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/fields_file.hpp"
-#include "engine/files/frames/frame_writer.hpp"
-#include "engine/files/frames/world.hpp"
+#include "engine/files/frames/state_writer.hpp"
+#include "engine/files/frames/stored_world.hpp"
 #include "engine/files/frames/writers/vtk_file.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -28,7 +28,7 @@ void add(std::vector<double>& to, const Vec3& v) {
     to.insert(to.end(), {v.x(), v.y(), v.z()});
 }
 
-VtkPolyData grains_of(const Frame& frame, const World& world, const FrameSupply& supply) {
+VtkPolyData grains_of(const State& frame, const StoredWorld& world, const StateSupply& supply) {
     VtkPolyData data;
     std::vector<double> radius, velocity, spin;
     std::vector<std::int64_t> id, type, contacts;
@@ -58,7 +58,7 @@ VtkPolyData grains_of(const Frame& frame, const World& world, const FrameSupply&
     return data;
 }
 
-VtkList force_array(const Frame& frame, const std::optional<std::vector<Vec3>>& forces) {
+VtkList force_array(const State& frame, const std::optional<std::vector<Vec3>>& forces) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> numbers;
     for (std::size_t i = 0; i < frame.size(); ++i)
@@ -66,7 +66,7 @@ VtkList force_array(const Frame& frame, const std::optional<std::vector<Vec3>>& 
     return VtkList::doubles("force", numbers, 3);
 }
 
-VtkPolyData walls_of(const std::vector<WorldSurface>& surfaces, const Frame& frame) {
+VtkPolyData walls_of(const std::vector<WorldSurface>& surfaces, const State& frame) {
     VtkPolyData data;
     data.cells = VtkPolyData::Cells::triangles;
     data.points_a_cell = 3;
@@ -123,7 +123,7 @@ std::vector<VtkList> joined(const std::vector<std::string>& names,
 }
 
 // Along an axis without cells the image has one cell that is as wide as the world.
-VtkImage grid_of(const FieldsReader& fields, const World& world) {
+VtkImage grid_of(const FieldsReader& fields, const StoredWorld& world) {
     VtkImage image;
     const std::array<double, 3> cell = fields.cell();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -137,7 +137,7 @@ VtkImage grid_of(const FieldsReader& fields, const World& world) {
     return image;
 }
 
-class Vtk final : public FrameWriter {
+class Vtk final : public StateWriter {
   public:
     explicit Vtk(const fs::path& folder) : folder_(folder) {
         std::error_code error;
@@ -145,7 +145,7 @@ class Vtk final : public FrameWriter {
         if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
     }
 
-    void begin(const World& world, const FrameSupply& supply) override {
+    void begin(const StoredWorld& world, const StateSupply& supply) override {
         world_ = world;
         supply_ = supply;
         surfaces_ = surfaces_of(world);
@@ -155,7 +155,7 @@ class Vtk final : public FrameWriter {
         contacts_ = contacts;
         has_forces_ = true;
     }
-    void frame(const Frame& frame, const std::vector<Touch>& touches) override {
+    void frame(const State& frame, const std::vector<Link>& touches) override {
         VtkPolyData grains = grains_of(frame, world_, supply_);
         if (has_forces_) {
             std::optional<std::vector<Vec3>> forces;
@@ -197,7 +197,7 @@ class Vtk final : public FrameWriter {
     }
 
   private:
-    void write(const char* name, int part, const Frame& frame, VtkPolyData data) {
+    void write(const char* name, int part, const State& frame, VtkPolyData data) {
         // Frames without times are numbered instead.
         const double time = world_.time_known ? frame.time : static_cast<double>(frames_);
         if (world_.time_known) data.facts.time = time;
@@ -208,8 +208,8 @@ class Vtk final : public FrameWriter {
     }
 
     fs::path folder_;
-    World world_;
-    FrameSupply supply_;
+    StoredWorld world_;
+    StateSupply supply_;
     std::vector<WorldSurface> surfaces_;
     std::optional<std::vector<SavedContact>> contacts_;  // contacts of the next frame
     bool has_forces_ = false;                            // whether this frame or one before it has forces
@@ -219,7 +219,7 @@ class Vtk final : public FrameWriter {
 
 }  // namespace
 
-FrameFormat vtk_format() {
+WriteFormat vtk_format() {
     return {"vtk", "folder for ParaView and VTK: grains, walls, contacts, fields (.pvd, .vtp, .vti)", "-vtk",
             make_writer<Vtk>};
 }

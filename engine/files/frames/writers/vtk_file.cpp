@@ -204,12 +204,12 @@ std::string pvd_text(const std::vector<VtkEntry>& entries) {
 namespace {
 
 // The row of an id in the frame, or the number of rows where there is no such grain.
-std::size_t row_of(const Frame& frame, std::int32_t id) {
+std::size_t row_of(const State& frame, std::int32_t id) {
     return frame.row_of(id).value_or(frame.size());
 }
 
 // Subtracts whole edges of the periodic cell from a vector, so that it leads to the nearest image.
-Vec3 shortest(Vec3 way, const World& world) {
+Vec3 shortest(Vec3 way, const StoredWorld& world) {
     if (!world.cell) return way;
     for (std::size_t edge = 3; edge-- > 0;) {
         const Vec3& along = world.cell->edges[edge];
@@ -221,8 +221,8 @@ Vec3 shortest(Vec3 way, const World& world) {
 }
 
 // The vector from the first grain's centre to the second's, or to the point of contact on a wall.
-Vec3 way_of(const Frame& frame, const SavedContact& contact, std::size_t first, std::size_t second,
-            const World& world) {
+Vec3 way_of(const State& frame, const SavedContact& contact, std::size_t first, std::size_t second,
+            const StoredWorld& world) {
     const Vec3 end = second < frame.size() ? frame.position[second] : contact.point;
     return shortest(end - frame.position[first], world);
 }
@@ -266,7 +266,8 @@ class Lines {
 
 }  // namespace
 
-VtkPolyData contact_lines(const Frame& frame, const std::vector<SavedContact>& contacts, const World& world) {
+VtkPolyData contact_lines(const State& frame, const std::vector<SavedContact>& contacts,
+                          const StoredWorld& world) {
     Lines lines;
     std::vector<double> tangential, force;
     for (const SavedContact& contact : contacts) {
@@ -284,9 +285,9 @@ VtkPolyData contact_lines(const Frame& frame, const std::vector<SavedContact>& c
     return data;
 }
 
-VtkPolyData contact_lines(const Frame& frame, const std::vector<Touch>& touches, const World& world) {
+VtkPolyData contact_lines(const State& frame, const std::vector<Link>& touches, const StoredWorld& world) {
     Lines lines;
-    for (const Touch& touch : touches) {
+    for (const Link& touch : touches) {
         const std::size_t a = row_of(frame, touch.first);
         const std::size_t b = touch.second < 0 ? frame.size() : row_of(frame, touch.second);
         if (a == frame.size() || b == frame.size()) continue;
@@ -296,8 +297,8 @@ VtkPolyData contact_lines(const Frame& frame, const std::vector<Touch>& touches,
     return lines.data();
 }
 
-std::vector<Vec3> forces_on_grains(const Frame& frame, const std::vector<SavedContact>& contacts,
-                                   const World& world) {
+std::vector<Vec3> forces_on_grains(const State& frame, const std::vector<SavedContact>& contacts,
+                                   const StoredWorld& world) {
     std::vector<Vec3> forces(frame.size(), Vec3(0, 0, 0));
     for (const SavedContact& contact : contacts) {
         const std::size_t a = row_of(frame, contact.first);

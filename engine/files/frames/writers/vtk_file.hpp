@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/files/frames/world.hpp"
-#include "engine/frame.hpp"
+#include "engine/files/frames/stored_world.hpp"
 #include "engine/state/contact.hpp"
+#include "engine/state/state.hpp"
 
 namespace grainreel {
 
@@ -71,14 +71,15 @@ std::string pvd_text(const std::vector<VtkEntry>& entries);
 // on a wall. Across a periodic edge a line ends at the image of the second grain. The lines have these
 // arrays: normal_force (N, 0 or more), tangential_force and force (N, both on the second body), id1, id2 (for
 // a wall, minus 1 minus its number) and to_wall.
-VtkPolyData contact_lines(const Frame& frame, const std::vector<SavedContact>& contacts, const World& world);
+VtkPolyData contact_lines(const State& frame, const std::vector<SavedContact>& contacts,
+                          const StoredWorld& world);
 
 // The same where points and tangential forces are not known: lines between grains only, with normal_force,
 // id1, id2 and to_wall.
-VtkPolyData contact_lines(const Frame& frame, const std::vector<Touch>& touches, const World& world);
+VtkPolyData contact_lines(const State& frame, const std::vector<Link>& touches, const StoredWorld& world);
 
 // The sum of all contact forces on each grain, N.
-std::vector<Vec3> forces_on_grains(const Frame& frame, const std::vector<SavedContact>& contacts,
-                                   const World& world);
+std::vector<Vec3> forces_on_grains(const State& frame, const std::vector<SavedContact>& contacts,
+                                   const StoredWorld& world);
 
 }  // namespace grainreel

@@ -55,7 +55,7 @@ void shake(SmallWorld& world) {
     drive.amplitude = 1e-12;  // m; so small that the lattice stays as it is
     drive.frequency = 20;
     world.plan.clock.steps_per_period = 50000000;
-    world.around.motion = WallMotion(drive, world.plan.clock);
+    world.around.motion = DriveMotion(drive, world.plan.clock);
     world.plan.moving_walls = true;
     for (Face& face : world.around.faces) face.body.driven = true;
 }

@@ -13,7 +13,7 @@
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
 #include "engine/lab/chart/small_world.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
@@ -40,7 +40,7 @@ double restlessness(double step, int grains) {
                                         {fmt::format("contact.stiffness={}", stiffness),
                                          fmt::format("run.step={}", step * unit), "start.settle_limit=2"});
     const Plan plan = make_plan(scene);
-    Simulation simulation(scene, plan, 1);
+    SimulatedBed simulation(scene, plan, 1);
     simulation.pack();
     simulation.advance(plan.steps);
     return simulation.measure("kinetic_J") /
@@ -95,12 +95,12 @@ double creep_of(LeverArms arms, int seed, int periods) {
         {std::string("contact.arms=") + (arms == LeverArms::radius ? "radius" : "contact-plane"),
          fmt::format("run.seed={}", seed), fmt::format("run.duration={}", (settled + periods) / kFrequency)});
     const Plan plan = make_plan(scene);
-    Simulation simulation(scene, plan, 1);
+    SimulatedBed simulation(scene, plan, 1);
     simulation.pack();
     simulation.advance(settled * plan.clock.steps_per_period);
-    const Frame start = simulation.frame();
+    const State start = simulation.frame();
     simulation.advance(plan.steps);
-    const Frame end = simulation.frame();
+    const State end = simulation.frame();
     double way = 0;
     for (std::size_t i = 0; i < end.size(); ++i)
         way += (end.position[i] - start.position[i]).norm() / (2 * end.radius[i]);
@@ -131,7 +131,7 @@ Finding hard_shaking(bool quick) {
                                 fmt::format("[drive]\nfrequency = {}\ng_level = {}\n", kFrequency, level),
                             "bed.toml");
         const Plan plan = make_plan(scene);
-        Simulation simulation(scene, plan, 1);
+        SimulatedBed simulation(scene, plan, 1);
         simulation.pack();
         double largest = 0;
         for (std::int64_t step = 0; step < plan.steps;) {
@@ -181,7 +181,7 @@ std::unique_ptr<SmallWorld> on_a_plate(const PairPlan& pair, int steps_a_period,
     drive.ramp = ramp;
     world.add_floor();
     world.around.faces[0].body.driven = true;
-    world.around.motion = WallMotion(drive, world.plan.clock);
+    world.around.motion = DriveMotion(drive, world.plan.clock);
     world.around.gravity = {0, 0, -kGravity};
     return whole;
 }

@@ -202,7 +202,7 @@ double measured_gain(int count, double omega) {
     drive.ramp = ramp;
     world.add_floor();
     world.around.faces[0].body.driven = true;
-    world.around.motion = WallMotion(drive, world.plan.clock);
+    world.around.motion = DriveMotion(drive, world.plan.clock);
     world.around.gravity = {0, 0, -gravity};
     double z = -bench_radius;
     for (int k = 0; k < count; ++k) {
@@ -281,7 +281,7 @@ double rebound_measured(double natural, double omega, double phase) {
     drive.ramp = 0;
     world.add_floor();
     world.around.faces[0].body.driven = true;
-    world.around.motion = WallMotion(drive, world.plan.clock);
+    world.around.motion = DriveMotion(drive, world.plan.clock);
     world.add(Vec3(0, 0, bench_radius), Vec3(0, 0, -kSpeed));
     world.start();
     bool touched = false;

@@ -122,7 +122,7 @@ SiloLoad load_of(const SiloColumn& column) {
     for (Motion& m : world.grains.motion) m.velocity.setZero();
     const double speed = kSinking * std::sqrt(kGravity * kDiameter);
     world.around.faces[0].body.velocity = Vec3(0, 0, -speed);
-    world.around.motion = WallMotion(Drive(), world.plan.clock);
+    world.around.motion = DriveMotion(Drive(), world.plan.clock);
     world.around.gravity = Vec3(0, 0, -kGravity);
     world.start();
     settle(world);

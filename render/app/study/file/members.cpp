@@ -9,7 +9,7 @@
 #include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
-#include "engine/run/simulation/simulation.hpp"
+#include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
@@ -180,7 +180,7 @@ void PackingSharing::add_setting(const Scene& scene, const Plan& plan) {
     if (settings_ == kMost) return;
     ++settings_;
     if (!scene.start.packs()) return;
-    const std::string key = Simulation(scene, plan, 1).packing_key();
+    const std::string key = SimulatedBed(scene, plan, 1).packing_key();
     if (key.empty()) return;
     ++packing_;
     packings_.insert(key);

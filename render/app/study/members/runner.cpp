@@ -21,7 +21,7 @@
 namespace grainreel {
 namespace {
 
-using State = MemberResult::State;
+using Status = MemberResult::Status;
 using Json = nlohmann::json;
 
 constexpr int poll_interval = 200;     // ms
@@ -42,7 +42,7 @@ struct Running {
 class Runner {
   public:
     Runner(const Study& study, const std::vector<Member>& members, const StudyFolder& folder,
-           const StudyRunRequest& request, std::vector<MemberResult>& results, RunListener& listener,
+           const StudyRequest& request, std::vector<MemberResult>& results, Listener& listener,
            const std::function<void()>& gained)
         : study_(study),
           members_(members),
@@ -70,7 +70,7 @@ class Runner {
 
     bool wants_poster(std::size_t member) const {
         return request_.posters && members_[member].seed_index == 0 &&
-               results_[member].state == State::complete &&
+               results_[member].status == Status::complete &&
                !std::filesystem::exists(folder_.member(members_[member]) / "poster.png") &&
                !std::filesystem::exists(folder_.poster(members_[member])) &&
                std::filesystem::exists(folder_.member(members_[member]) / "trajectory.nc");
@@ -151,9 +151,9 @@ class Runner {
         MemberResult& result = results_[index];
         result = read_result(folder_.member(members_[index]), study_.measures);
         const int status = ended.child.status();
-        if (stopping() && result.state != State::complete) return;
+        if (stopping() && result.status != Status::complete) return;
         if (status != 0) {
-            result.state = State::failed;
+            result.status = Status::failed;
             if (result.error.empty()) result.error = ended.last_error;
             if (result.error.empty())
                 result.error = status > 128 ? fmt::format("was ended by signal {}", status - 128)
@@ -171,9 +171,9 @@ class Runner {
     }
 
     void show_progress() {
-        const auto in = [&](State state) {
+        const auto in = [&](Status status) {
             return std::count_if(results_.begin(), results_.end(),
-                                 [&](const auto& r) { return r.state == state; });
+                                 [&](const auto& r) { return r.status == status; });
         };
         double done = cost_planned_ - cost_left_;
         for (const Running& one : running_)
@@ -181,9 +181,9 @@ class Runner {
         Progress progress;
         progress.stage = Progress::Stage::studying;
         progress.done = cost_planned_ > 0 ? std::min(1.0, done / cost_planned_) : 1;
-        progress.what = fmt::format("{} of {}, {} running", in(State::complete),
+        progress.what = fmt::format("{} of {}, {} running", in(Status::complete),
                                     counted(results_.size(), "member"), running_.size());
-        if (const auto failed = in(State::failed); failed > 0)
+        if (const auto failed = in(Status::failed); failed > 0)
             progress.what += fmt::format(", {} failed", failed);
         progress.elapsed = watch_.seconds();
         constexpr double soon = 0.02;  // share of the work from which the time left can be estimated
@@ -194,9 +194,9 @@ class Runner {
     const Study& study_;
     const std::vector<Member>& members_;
     const StudyFolder& folder_;
-    const StudyRunRequest& request_;
+    const StudyRequest& request_;
     std::vector<MemberResult>& results_;
-    RunListener& listener_;
+    Listener& listener_;
     const std::function<void()>& gained_;
     std::deque<Job> jobs_;
     std::vector<Running> running_;
@@ -207,22 +207,22 @@ class Runner {
 
 }  // namespace
 
-bool is_pending(std::size_t member, const MemberResult& result, const StudyRunRequest& request) {
+bool is_pending(std::size_t member, const MemberResult& result, const StudyRequest& request) {
     if (!request.wanted.empty() && !request.wanted[member]) return false;
-    switch (result.state) {
-        case State::complete:
+    switch (result.status) {
+        case Status::complete:
             return request.films && !result.has_film;
-        case State::failed:
+        case Status::failed:
             return request.retry;
-        case State::missing:
-        case State::incomplete:
+        case Status::missing:
+        case Status::incomplete:
             break;
     }
     return true;
 }
 
 void run_members(const Study& study, const std::vector<Member>& members, const StudyFolder& folder,
-                 const StudyRunRequest& request, std::vector<MemberResult>& results, RunListener& listener,
+                 const StudyRequest& request, std::vector<MemberResult>& results, Listener& listener,
                  const std::function<void()>& gained) {
     Runner(study, members, folder, request, results, listener, gained).run();
 }

@@ -51,7 +51,7 @@ std::vector<std::string> run_command(const Study& study, const Member& member, c
 std::vector<std::string> poster_command(const Member& member, const MemberResult& result,
                                         const StudyFolder& folder);
 
-struct StudyRunRequest {
+struct StudyRequest {
     int jobs = 1;  // members at a time
     bool films = false;
     bool cache = true;          // members take packings from the user's cache folder, and keep theirs
@@ -63,14 +63,14 @@ struct StudyRunRequest {
 };
 
 // Whether the member with that number is still to be run.
-bool is_pending(std::size_t member, const MemberResult& result, const StudyRunRequest& request);
+bool is_pending(std::size_t member, const MemberResult& result, const StudyRequest& request);
 
 // Runs the members that are pending, the first seed of all settings first. results: for each member, what is
 // on disk; it is brought up to date when the member ends. `gained` is called after each member that was not
 // stopped. Returns when all are done, or once the listener has a stop signal and the running members have
 // ended in good order.
 void run_members(const Study& study, const std::vector<Member>& members, const StudyFolder& folder,
-                 const StudyRunRequest& request, std::vector<MemberResult>& results, RunListener& listener,
+                 const StudyRequest& request, std::vector<MemberResult>& results, Listener& listener,
                  const std::function<void()>& gained);
 
 }  // namespace grainreel

@@ -21,7 +21,7 @@ struct Sample {
     std::size_t members = 0;
 
     void add(const MemberResult& result, std::size_t measure) {
-        if (result.state != MemberResult::State::complete) return;
+        if (result.status != MemberResult::Status::complete) return;
         ++members;
         values.push_back(result.values[measure]);
     }

@@ -12,16 +12,16 @@
 namespace grainreel {
 namespace {
 
-using State = MemberResult::State;
+using Status = MemberResult::Status;
 
-State state_of(const std::string& status) {
-    if (status == "complete") return State::complete;
-    return status == "failed" ? State::failed : State::incomplete;
+Status status_of(const std::string& status) {
+    if (status == "complete") return Status::complete;
+    return status == "failed" ? Status::failed : Status::incomplete;
 }
 
 void read_record(const std::filesystem::path& path, MemberResult& result) {
     const ReadRunJson read = read_run_json(path);
-    result.state = state_of(read.status);
+    result.status = status_of(read.status);
     result.error = read.record.error;
     result.warnings = read.record.warnings;
     result.simulated = read.record.simulated;
@@ -31,15 +31,15 @@ void read_record(const std::filesystem::path& path, MemberResult& result) {
 
 }  // namespace
 
-std::string to_string(State state) {
-    switch (state) {
-        case State::missing:
+std::string to_string(Status status) {
+    switch (status) {
+        case Status::missing:
             return "missing";
-        case State::incomplete:
+        case Status::incomplete:
             return "incomplete";
-        case State::failed:
+        case Status::failed:
             return "failed";
-        case State::complete:
+        case Status::complete:
             break;
     }
     return "complete";
@@ -50,10 +50,10 @@ MemberResult read_result(const std::filesystem::path& folder, const std::vector<
     if (!std::filesystem::exists(folder / "run.json")) return result;
     read_record(folder / "run.json", result);
     result.values.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
-    if (result.state != State::complete) return result;
+    if (result.status != Status::complete) return result;
     const auto table = read_measures(folder / "measures.csv");
     if (table == nullptr) {
-        result.state = State::incomplete;
+        result.status = Status::incomplete;
         return result;
     }
     const std::vector<double> times = table->all("time_s");
@@ -113,7 +113,7 @@ std::string study_table(const Study& study, const std::vector<Member>& members,
         }
         if (study.has_seeds())
             cells.push_back(members[m].seed ? std::to_string(*members[m].seed) : std::string());
-        cells.push_back(to_string(result.state));
+        cells.push_back(to_string(result.status));
         for (std::size_t i = 0; i < study.measures.size(); ++i)
             cells.push_back(i < result.values.size() ? csv_number(result.values[i]) : "");
         cells.push_back(std::to_string(result.warnings.size()));

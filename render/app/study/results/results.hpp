@@ -11,13 +11,13 @@
 namespace grainreel {
 
 struct MemberResult {
-    enum class State {
+    enum class Status {
         missing,     // it has not been run
         incomplete,  // it was stopped or killed, or it is being run
         failed,      // a blow-up, a full disk, a mistake
         complete,
     };
-    State state = State::missing;
+    Status status = Status::missing;
     std::string error;  // error of a failed member
     std::vector<std::string> warnings;
     std::vector<double> values;  // for complete members, one for each measure; NaN where there is no value
@@ -26,7 +26,7 @@ struct MemberResult {
     bool has_film = false;
 };
 
-std::string to_string(MemberResult::State state);
+std::string to_string(MemberResult::Status status);
 
 // Reads run.json and measures.csv in the member's folder. A member with damaged files counts as incomplete.
 MemberResult read_result(const std::filesystem::path& folder, const std::vector<StudyMeasure>& measures);
