@@ -90,7 +90,7 @@ Packing packing_of(const FileBytes& file) {
         if (head.starts_with(packing.magic) && really(packing, head))
             throw UserError(fmt::format("{0}: packed with {1}, which is not read; unpack it first: {2} {3}",
                                         shown(file.path()), packing.name, packing.remedy,
-                                        file.path().filename().string()));
+                                        shell_word(file.path().filename().string())));
     return Packing::none;
 }
 
@@ -155,7 +155,10 @@ FileBytes::FileBytes(const fs::path& file) : path_(file) {
     // O_NONBLOCK keeps open() from waiting if a pipe has just taken the file's name.
     file_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     struct stat about {};
-    if (file_ >= 0 && ::fstat(file_, &about) == 0 && S_ISREG(about.st_mode)) return;
+    if (file_ >= 0 && ::fstat(file_, &about) == 0 && S_ISREG(about.st_mode)) {
+        FilesRead::note(path_, state_of(about));
+        return;
+    }
     const std::string why = file_ < 0 ? std::strerror(errno) : "it is no ordinary file";
     if (file_ >= 0) ::close(file_);
     throw UserError(fmt::format("{}: cannot be opened: {}", shown(file), why));
@@ -169,9 +172,7 @@ FileState FileBytes::state() const {
     struct stat about {};
     if (::fstat(file_, &about) != 0)
         throw UserError(fmt::format("{}: cannot be read: {}", shown(path_), std::strerror(errno)));
-    return {static_cast<std::uint64_t>(about.st_size), static_cast<std::uint64_t>(about.st_dev),
-            static_cast<std::uint64_t>(about.st_ino),
-            std::int64_t{about.st_mtim.tv_sec} * 1000000000 + std::int64_t{about.st_mtim.tv_nsec}};
+    return state_of(about);
 }
 
 std::size_t FileBytes::read_at(std::uint64_t place, char* to, std::size_t size) const {
