@@ -63,7 +63,10 @@ class Compare final : public Verb {
         check_print_size(request_.print, request_.at.has_value(), "--at");
         film_.command = command;
         film_.program = program_info();
-        if (film_.out) RunFolder::check(*film_.out, film_.force);
+        if (film_.out) {
+            check_folder_name(*film_.out);
+            RunFolder::check(*film_.out, film_.force);
+        }
         bool any_foreign = false;
         for (std::filesystem::path& input : request_.inputs) {
             bring_back_to_read(input, reporter);

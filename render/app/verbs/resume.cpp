@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/former_files.hpp"
 #include "engine/files/frames/saved_scene.hpp"
@@ -77,8 +78,8 @@ class Resume final : public Verb {
         if (!no_page_) film_.page = page_of_ended_run();
         const fs::path folder = folder_of_run(run_);
         if (is_handover(folder))
-            throw UserError(fmt::format("{}: was handed over; go on with: sh {}/run.sh --continue",
-                                        folder.string(), folder.string()));
+            throw UserError(fmt::format("{}: was handed over; go on with: sh {} --continue", folder.string(),
+                                        shell_word((folder / "run.sh").string())));
         scene_file(folder);
         check_all_plain(folder);
         std::shared_ptr<FolderLock> lock = locked(folder);
