@@ -52,7 +52,7 @@ TEST_F(UnusedOptions, OfAFilmAtAPicture) {
     }
     for (const char* set : {"film.format=gif", "film.sheet=\"3x3\"", "film.max_size=\"1MB\"", "film.rate=5"})
         expect_refused({"inspect", "run", "--png", "x.png", "--set", set}, std::string(set).substr(0, 8));
-    EXPECT_EQ(program({"inspect", "run", "--png", "clear.png", "--transparent", "--size", "80x60"}).status,
+    EXPECT_EQ(program({"inspect", "run", "--png", "clear.png", "--transparent", "--size", "160x120"}).status,
               0);
 }
 
