@@ -309,6 +309,16 @@ TEST_F(FollowedJob, EachVerbSaysWhyTheRunIsShort) {
     }
 }
 
+// Commands that are printed can be pasted, whatever the folder is called.
+TEST_F(FollowedJob, PrintedCommandsAreQuoted) {
+    const Ended written = program({"handover", "ball.toml", "--to", "lammps", "--out", "my job"});
+    EXPECT_EQ(written.status, 0);
+    EXPECT_THAT(written.err, tells({"run it", "sh 'my job/run.sh'", "cd 'my job'"}));
+    EXPECT_THAT(written.err, tells({"draw it", "render 'my job'"}));
+    EXPECT_THAT(program({"resume", "my job"}).err, tells_only({"my job", "sh 'my job/run.sh' --continue"}));
+    EXPECT_THAT(program({"render", "my job"}).err, tells_only({"my job", "sh 'my job/run.sh'"}));
+}
+
 // A job that goes on keeps the log that told why the one before ended, also where it cannot go on.
 TEST_F(FollowedJob, AJobThatGoesOnKeepsTheLogOfTheOneBefore) {
     fs::create_directory(here / "bin");
