@@ -69,6 +69,7 @@ class Resume final : public Verb {
             ->type_name("N")
             ->check(CLI::Range(1, 1024));
         add_gl(parser, film_.gl);
+        parser.get_option("--gl")->excludes(parser.get_option("--no-film"));
         add_reporting(parser, report);
     }
 
@@ -125,12 +126,13 @@ class Resume final : public Verb {
 
     // Continues a run of `movie --engine`: the other engine goes on from its own restart file.
     int go_on_elsewhere(const fs::path& folder, std::shared_ptr<FolderLock> lock, Reporter& reporter) {
-        if (until_ || more_ || !accept_.empty())
+        if (until_ || more_ || threads_ || !accept_.empty())
             throw UserError(fmt::format(
                 "{}: another engine ran this, and its deck cannot be changed; leave out {}", folder.string(),
-                until_  ? "--until"
-                : more_ ? "--for"
-                        : "--accept"));
+                until_     ? "--until"
+                : more_    ? "--for"
+                : threads_ ? "--threads"
+                           : "--accept"));
         FilmedScene scene = read_filmed_scene(scene_file(folder), {}, measurable_in);
         const Plan plan = plan_with_film(scene);
         film_.out = folder;

@@ -58,7 +58,11 @@ TEST_F(UnusedOptions, OfAFilmAtAPicture) {
 
 TEST_F(UnusedOptions, WithoutThePartThatTheyAreOf) {
     expect_refused({"inspect", "run", "--gl", "osmesa"}, "--gl");
-    expect_refused({"movie", "fifty.toml", "--watch-host", "localhost", "--out", "x.png"}, "--out");
+    expect_refused({"compare", "run", "run", "--no-cache"}, "--no-cache");
+    expect_refused({"compare", "fifty.toml", "fifty.toml", "--no-replay"}, "--no-replay");
+    expect_refused({"resume", "run", "--no-film", "--gl", "osmesa"}, "--gl");
+    for (const char* option : {"--films", "--retry", "--no-cache"})
+        expect_refused({"study", "gone.toml", "--collect", option}, option);
     expect_refused({"movie", "fifty.toml", "--watch-host", "localhost"}, "--watch-host");
 }
 
