@@ -84,6 +84,7 @@ class PackedBytes : public ByteSource {
 
     // Makes sure that there are packed bytes which were not used yet. Returns whether there are any.
     bool fill();
+    std::uint64_t packed_size() const { return file_->state().size; }
     const char* packed() const { return piece_.get() + used_; }
     std::size_t left() const { return held_ - used_; }
     void use(std::size_t bytes) { used_ += bytes; }
