@@ -1,6 +1,7 @@
 // Tests of balls on meshes: they move as on planes and cylinders of the same shape.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "engine/base/error.hpp"
@@ -120,6 +121,12 @@ TEST(MeshContacts, TheWedgeOfTrianglesPushesAsThatOfPlanes) {
             const double distance = distance_to(face, Vec3::Zero(), at).distance;
             if (distance < 1.3 * kRadius) at += (kRadius - 1e-5 - distance) * face.normal;
         }
+        // Deep in one wall, a ball does not feel the part of another that lies behind it, but endless planes
+        // know of no behind.
+        if (std::any_of(faces.begin(), faces.end(), [&](const Face& face) {
+                return distance_to(face, Vec3::Zero(), at).distance < 0.95 * kRadius;
+            }))
+            continue;
         const auto pushed = [&](bool triangles) {
             HandMadeBed w = make_world(walton_braun_pair(0.9, 0.4), 1e-6);
             if (triangles)
@@ -210,7 +217,8 @@ TEST(MeshContacts, AnElasticGasKeepsItsEnergyInAClosedMesh) {
         std::mt19937_64 random(4);
         std::normal_distribution<double> speed(0, 0.3);
         for (int i = 0; i < 27; ++i) {
-            w.grains.add(i, 0, 0.0055 * Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1) + Vec3(0, 0, 0.01), kRadius,
+            const int layer = i / 9;
+            w.grains.add(i, 0, 0.0055 * Vec3(i % 3 - 1, i / 3 % 3 - 1, layer - 1) + Vec3(0, 0, 0.01), kRadius,
                          kDensity);
             w.grains.motion.back().velocity = Vec3(speed(random), speed(random), speed(random));
         }
@@ -231,7 +239,8 @@ TEST(MeshContacts, AGrainThatCrossesASheetEndsTheRunWithItsName) {
         w.team = std::make_unique<Team>(threads);
         add_mesh(w, "vane", square_mesh(0.05, 3));
         for (int i = 0; i < 20; ++i) {
-            w.grains.add(i, 0, Vec3(-0.02 + 0.004 * (i % 10), 0.01 * (i / 10), 2 * kRadius), kRadius,
+            const int row = i / 10;
+            w.grains.add(i, 0, Vec3(-0.02 + 0.004 * (i % 10), 0.01 * row, 2 * kRadius), kRadius,
                          i == 7 ? 1e7 : kDensity);
             w.grains.motion.back().velocity = {0, 0, i == 7 ? -5.0 : 0.0};
         }
