@@ -44,7 +44,8 @@ void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chu
                                  .rubs = group.law->rubs,
                                  .rolling = group.rolling ? &memory.rolling : nullptr,
                                  .rounded = rounded,
-                                 .sorted = sorted};
+                                 .sorted = sorted,
+                                 .of_glued = group.of_glued};
     if (group.of_pairs) return add_pairs(forces, grains);
     const WallLoads at_walls{forces, in.walls, in.times.acts, grains};
     if (group.of_mesh) return add_at_meshes(at_walls);
@@ -263,6 +264,15 @@ std::int32_t wall_of(const ForceInput& in, const ContactGroup& group, std::int32
     return group.of_glued ? in.glued.face[second] : second;
 }
 
+// Distance (m) of the point where a grain touches another body from the grain's centre. On a wall (`other` is
+// 0) it is the point of the surface, between spheres it lies in the plane of the circle in which they
+// intersect. The lever arms of the torques end there too (LeverArms::contact_plane).
+double distance_of_point(double radius, double other, double overlap) {
+    if (other == 0) return radius - overlap;
+    const double reach = radius + other, distance = reach - overlap;
+    return 0.5 * (distance + (radius - other) * (reach / distance));
+}
+
 ContactView view_of(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, int at,
                     const ChunkMemory& of, const EnergyChunk& energy) {
     const auto vector = [at](const Row* axes) { return Vec3(axes[0][at], axes[1][at], axes[2][at]); };
@@ -291,8 +301,10 @@ ContactView view_of(const ForceInput& in, const ContactGroup& group, const Chunk
     v.latched_energy = energy.latched[at];
     v.damping_power = energy.damping[at];
     v.rubbing_power = energy.rubbing[at];
-    // On a mesh the contact point is the point of the surface, elsewhere the middle of the overlap.
-    v.point = one.position + v.normal * (one.radius - (group.of_mesh ? 1.0 : 0.5) * v.overlap);
+    const double other = group.of_pairs   ? in.grains.place[second].radius
+                         : group.of_glued ? in.glued.place[second].radius
+                                          : 0;
+    v.point = one.position + v.normal * distance_of_point(one.radius, other, v.overlap);
     return v;
 }
 
