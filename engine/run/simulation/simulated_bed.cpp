@@ -207,8 +207,8 @@ std::vector<SavedContact> SimulatedBed::contacts() const {
     impl_->loop->visit_contacts(impl_->step, [&](const ContactView& c) {
         if (c.normal_force <= 0) return;
         const std::int32_t second = c.second >= 0 ? impl_->grains.id[c.second] : c.second;
-        contacts.push_back(
-            {impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point, c.triangle});
+        contacts.push_back({impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point,
+                            c.triangle, c.rolling});
     });
     // Each thread shows its own contacts, so their order must be set here.
     std::sort(contacts.begin(), contacts.end(), [](const SavedContact& a, const SavedContact& b) {
