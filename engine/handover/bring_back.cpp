@@ -12,7 +12,9 @@
 #include "engine/files/run_names.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/handover/deck_dump.hpp"
+#include "engine/handover/decks.hpp"
 #include "engine/handover/grain_count.hpp"
+#include "engine/handover/handed_grains.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/handover/peer_process.hpp"
 #include "engine/handover/returned_health.hpp"
@@ -248,7 +250,13 @@ bool ReturnedRun::take_next() {
     if (!there) return false;
     // A run that continued from the engine's restart file writes its first moment once more.
     if (m.last && there->step - m.facts.shift <= m.last->step) return true;
+    if (!m.last) {
+        const Container& container = m.scene.container;
+        const HandedGrains handed(m.facts.dump.parent_path() / data_name, m.facts.dump.string());
+        handed.check_first(*there, container.periodic_depth ? container.depth : 0);
+    }
     State frame = m.ours(std::move(*there));
+    if (m.last) check_unchanged(*m.last, frame, m.facts.dump.string());
     const GrainCount::Change change = m.count.compare(m.last ? &*m.last : nullptr, frame);
     const double overlap = m.health.look(frame);
     m.note_outflow(change.left, frame.step);

@@ -282,6 +282,12 @@ void GrainMeaning::add_types(const RawFrame& raw, TypeList& types) const {
     }
 }
 
+double GrainMeaning::least_id(const RawFrame& raw) const {
+    if (!id_ || *id_ >= raw.grains.columns.size()) return facts_.first_row_id;
+    const std::vector<double>& ids = raw.grains.columns[*id_].values;
+    return *std::min_element(ids.begin(), ids.end());
+}
+
 std::optional<WorldCell> GrainMeaning::cell(const RawFrame& raw) const {
     if (!raw.box) return std::nullopt;
     WorldCell cell = *raw.box;

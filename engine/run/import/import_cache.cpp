@@ -21,7 +21,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/program.hpp"
 #include "engine/files/foreign/byte_source.hpp"
-#include "engine/files/foreign/raw_series.hpp"
+#include "engine/files/foreign/file_groups.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/import/import_run.hpp"
 

@@ -200,7 +200,7 @@ class Inspection {
                     fmt::format("{:.6g} s was not kept; this is the nearest kept moment", asked.time));
             const State& moment = run.moments()[asked.nearest];
             return {std::move(*kept),
-                    {moment.time, moment.step,
+                    {moment.time, run.written_step(asked.nearest),
                      fmt::format("{}kept as number {} of {}", asked.kept ? last : "", asked.nearest + 1,
                                  run.moments().size())}};
         }

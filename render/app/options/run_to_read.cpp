@@ -10,7 +10,6 @@
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/foreign/names.hpp"
-#include "engine/files/foreign/raw_series.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/handover_folder.hpp"

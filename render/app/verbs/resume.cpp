@@ -103,7 +103,9 @@ class Resume final : public Verb {
         const int threads = plan_threads(processors, film_.film, scene.grains()).engine;
         ResumePoint point = find_resume_point(scene, plan, folder, threads,
                                               film_.film ? reach_of_film(scene, plan) : FramesReach());
-        point.accepted = read_run_json(folder / "run.json").record.accepted;
+        const RunJson former = read_run_json(folder / "run.json").record;
+        point.accepted = former.accepted;
+        point.deepest = former.deepest;
         if (!changes.empty()) take_up(changes, folder, scene, plan, point, threads);
         reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
                                   plan.clock.time(point.simulation.step()), scene.run.duration));
