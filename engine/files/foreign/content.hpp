@@ -23,6 +23,7 @@ class Content {
     const std::filesystem::path& file() const { return file_; }
     // Number of bytes. To learn it, a large packed file is unpacked once.
     std::uint64_t size() const;
+    bool knows_size() const { return size_ != npos; }
     // At least so many bytes from a place on, fewer only at the end of the content. They are valid until the
     // next call.
     std::string_view from(std::uint64_t place, std::size_t least = kPiece) const;

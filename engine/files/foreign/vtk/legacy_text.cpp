@@ -144,6 +144,14 @@ std::string_view LegacyText::whole_words() const {
     return text;
 }
 
+// Refuses a count that the rest of the file cannot hold, where that is known without unpacking it.
+void LegacyText::check_room(std::uint64_t count) const {
+    // Each number takes a digit and something between it and the next.
+    if (content_.knows_size() && count > (content_.size() - at_) / 2 + 1)
+        refuse(
+            fmt::format("{} numbers, for which the rest of the file is too short; {}", count, kWriteAgain));
+}
+
 void LegacyText::refuse_end(std::uint64_t index, std::uint64_t count) {
     last_ = at_;
     refuse(fmt::format("the file ends after {} of {} numbers; {}", index, count, kWriteAgain));
@@ -151,6 +159,7 @@ void LegacyText::refuse_end(std::uint64_t index, std::uint64_t count) {
 
 template <class T>
 void LegacyText::read_words(std::uint64_t count, bool finite, std::vector<T>& values) {
+    check_room(count);
     values.reserve(std::min(count, some_numbers));
     while (values.size() < count) {
         const std::string_view text = whole_words();
@@ -204,6 +213,7 @@ void LegacyText::skip(VtkType type, std::uint64_t count) {
         stored(type, count);
         return;
     }
+    check_room(count);
     for (std::uint64_t i = 0; i < count;) {
         const std::string_view text = whole_words();
         if (text.empty()) refuse_end(i, count);

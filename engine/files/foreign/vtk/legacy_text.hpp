@@ -64,6 +64,7 @@ class LegacyText {
 
     // The next words that are whole, as one piece; empty at the end.
     std::string_view whole_words() const;
+    void check_room(std::uint64_t count) const;
     // Throws UserError: the file ends after that many of `count` numbers.
     [[noreturn]] void refuse_end(std::uint64_t index, std::uint64_t count);
 

@@ -139,11 +139,11 @@ Blocks blocks_of(StoredStream& stream, const VtkCoding& coding, const VtkPlace& 
     Blocks blocks;
     const std::uint64_t count = length_at(stream.take(coding.header_bytes), 0, coding);
     if (count == 0) return blocks;
-    if (count > most_blocks)
-        refuse_vtk(place, fmt::format("says {} compressed blocks; at most {} are read", count, most_blocks));
     if (count > stream.at_most() / coding.header_bytes)
         refuse_vtk(place, fmt::format("says {} compressed blocks, which the file cannot hold; {}", count,
                                       kWriteAgain));
+    if (count > most_blocks)
+        refuse_vtk(place, fmt::format("says {} compressed blocks; at most {} are read", count, most_blocks));
     const std::string sizes = stream.take((count + 2) * coding.header_bytes);
     blocks.full = length_at(sizes, 0, coding);
     const std::uint64_t last = length_at(sizes, 1, coding);
