@@ -374,7 +374,7 @@ Seams seams_of(const Surface& surface) {
 // A grain that slides over a seam of a round wall meets the next facet with the sine of the turn as its
 // normal velocity.
 void warn_of_facets(const Scene& scene, const Plan& plan, Warnings& warnings) {
-    constexpr double kAlarming = 0.01;
+    constexpr double kAlarming = 0.005;
     constexpr std::int64_t kFew = 12;  // an edge that is rounded off
     const std::size_t species = scene.species.size();
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
