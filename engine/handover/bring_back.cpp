@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
@@ -118,8 +119,8 @@ BroughtBack bring_back(const fs::path& folder, const std::string& version,
     std::error_code missing;
     if (!fs::is_regular_file(facts.dump, missing))
         fail_without_moment(folder, facts, "is not there",
-                            fmt::format(", so {} has not run yet; run it: sh {}/run.sh",
-                                        name_of(facts.engine), folder.string()));
+                            fmt::format(", so {} has not run yet; run it: sh {}", name_of(facts.engine),
+                                        shell_word((folder / "run.sh").string())));
     BroughtBack back;
     if (is_newer(folder / "trajectory.nc", facts.dump)) {
         back.news = news_of_former(folder, facts);

@@ -28,6 +28,22 @@ ForeignArchive::ForeignArchive(const fs::path& path, const ReadingOptions& optio
     decide_velocities();
 }
 
+namespace {
+
+// Throws UserError where the times that a length of a step (s) gives could be those of no run.
+void check_time_step(double step, const std::vector<double>& times) {
+    constexpr double shortest = 1e-20, longest = 1e9;  // s
+    double last = 0;
+    for (const double time : times) last = std::max(last, std::abs(time));
+    if (step < shortest || last > longest)
+        throw UserError(
+            fmt::format("--time-step {:g}: gives times up to {:.3g} s; a step is {:g} s at least, and "
+                        "times are {:g} s at most",
+                        step, last, shortest, longest));
+}
+
+}  // namespace
+
 // Makes the moments, in each of which the time is the step times a constant length. If the files' steps and
 // times do not fit this, steps are counted in ticks of a millionth of the shortest interval.
 void ForeignArchive::list_moments() {
@@ -53,6 +69,10 @@ void ForeignArchive::list_moments() {
         raw_steps_.push_back(stepped ? *raw[k].step : static_cast<std::int64_t>(k));
     }
     world_.time_known = timed || options_.time_step.has_value();
+    if (options_.time_step && !timed) check_time_step(*options_.time_step, times);
+    if (options_.time_step && timed)
+        news_.push_back(
+            fmt::format("{}: says its times, so --time-step has no effect; leave it out", path_.string()));
     world_.steps_known = stepped;
     std::vector<double> intervals;
     for (std::size_t k = 1; k < times.size(); ++k) intervals.push_back(times[k] - times[k - 1]);
@@ -359,13 +379,20 @@ void ForeignArchive::decide_velocities() {
     const State before = read(middle);
     take_types(middle + 1);
     const State after = read(middle + 1);
+    constexpr double fastest = 1e6;  // m/s; a run's files hold no larger speeds
+    const double interval = after.time - before.time;
     const std::optional<WorldCell> box = cell(middle + 1);
     std::size_t near = 0, both = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const std::optional<std::size_t> row = after.row_of(before.id[i]);
         if (!row) continue;
         ++both;
-        near += way(before.position[i], after.position[*row], box).norm() < 2 * before.radius[i];
+        const double moved = way(before.position[i], after.position[*row], box).norm();
+        near += moved < 2 * before.radius[i];
+        if (options_.time_step && interval > 0 && moved / interval > fastest)
+            throw UserError(
+                fmt::format("--time-step {:g}: with it, grain {} moves at {:.3g} m/s; give a longer one",
+                            *options_.time_step, before.id[i], moved / interval));
     }
     derived_ = both > 0 && static_cast<double>(near) >= 0.95 * static_cast<double>(both);
     news_.push_back(

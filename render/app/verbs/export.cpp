@@ -72,10 +72,8 @@ class Export final : public Verb {
     }
 
     int run(Reporter& reporter) override {
-        if (const std::string option = given_reading(reading_); !option.empty() && !is_foreign(run_))
-            throw UserError(
-                fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
-                            option, run_.string()));
+        check_reading(run_, reading_);
+        if (!is_foreign(run_)) refuse_other_folder(run_);
         if (!out_.empty()) check_free(out_, force_);
         bring_back_to_read(run_, reporter);
         StoredRunRequest request;

@@ -646,6 +646,22 @@ TEST(ContactsFile, IsATableWithTheFrameOfEveryRow) {
     nc_close(file);
 }
 
+TEST(ContactsFile, HasTheTorqueOfTheResistanceToRolling) {
+    const TemporaryFolder here;
+    for (const bool meshes : {false, true}) {
+        const SavedContact one{3, -1, 0.5, vector_of(1), vector_of(2), meshes ? 4 : -1, vector_of(3)};
+        ContactsWriter(here / "c.nc", "A test", "1.2.3", {}, meshes, true).write(0, {one});
+        ContactsWriter(here / "c.nc", 1).write(1, {one});
+        const ContactsReader reader(here / "c.nc");
+        for (const std::size_t frame : {0U, 1U}) {
+            const std::vector<SavedContact> read = reader.contacts(frame);
+            ASSERT_EQ(read.size(), 1u);
+            EXPECT_EQ(read[0].triangle, one.triangle);
+            EXPECT_EQ(read[0].rolling, Vec3(one.rolling.cast<float>().cast<double>()));
+        }
+    }
+}
+
 TEST(ContactsFile, HasTheTrianglesOfMeshes) {
     const TemporaryFolder here;
     const auto touch = [](std::int32_t grain, std::int32_t triangle) {
