@@ -185,6 +185,13 @@ TEST(Amber, AHeaderThatCountsNoFrameIsRefusedWithTheCount) {
     EXPECT_THAT(complaint_of(amber_format(), bytes), HasSubstr("'\\000\\000\\000\\000\\000\\000\\000\\002'"));
 }
 
+TEST(Amber, FramesThatTheHeaderDoesNotCountAreTold) {
+    std::string bytes = Bed(NC_64BIT_OFFSET).bytes();
+    bytes[7] = '\1';
+    EXPECT_THAT(counts(amber_format(), bytes), ElementsAre(grains));
+    EXPECT_THAT(news_of(amber_format(), bytes), tells({"counts 1 frame", "room for 2"}));
+}
+
 // The count is that of "streaming": the file has as many frames as there is room for.
 TEST(Amber, AHeaderMayLeaveTheCountOpen) {
     std::string bytes = Bed(NC_64BIT_OFFSET).bytes();
