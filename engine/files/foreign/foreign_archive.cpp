@@ -3,12 +3,15 @@
 #include "engine/files/foreign/foreign_archive.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/files/foreign/names.hpp"
 
 namespace grainreel {
@@ -53,6 +56,7 @@ void ForeignArchive::list_moments() {
         raw_steps_.push_back(stepped ? *raw[k].step : static_cast<std::int64_t>(k));
     }
     world_.time_known = timed || options_.time_step.has_value();
+    check_clock(timed ? times : std::vector<double>());
     std::vector<double> intervals;
     for (std::size_t k = 1; k < times.size(); ++k) intervals.push_back(times[k] - times[k - 1]);
     if (!world_.time_known) {
@@ -97,6 +101,20 @@ void ForeignArchive::list_moments() {
         if (moments_[k].time < moments_[k - 1].time)
             throw UserError(fmt::format("{}: its time falls from {:.6g} to {:.6g} s; is it of two runs?",
                                         grains_->place(k), moments_[k - 1].time, moments_[k].time));
+}
+
+// Refuses steps and times (s) that no run reaches, because a damaged file has them.
+void ForeignArchive::check_clock(const std::vector<double>& times) const {
+    constexpr std::int64_t most_steps = 9'000'000'000'000'000;  // whole numbers that a double holds
+    for (std::size_t k = 0; k < raw_steps_.size(); ++k)
+        if (raw_steps_[k] <= -most_steps || raw_steps_[k] >= most_steps)
+            throw UserError(fmt::format("{}: has the step {}, which no run reaches; is the file damaged?",
+                                        grains_->place(k), raw_steps_[k]));
+    for (std::size_t k = 0; k < times.size(); ++k)
+        if (!(std::abs(times[k]) <= kLongestTime))
+            throw UserError(
+                fmt::format("{}: has the time {:.6g} s, which no run reaches; is the file damaged?",
+                            grains_->place(k), times[k]));
 }
 
 const RawFrame& ForeignArchive::raw(std::size_t index) const {
@@ -239,7 +257,8 @@ void ForeignArchive::make_species() {
     if (!moments_.empty() && types_.words().size() > 0) {
         const RawFrame& frame = raw(first);
         const std::vector<double> densities = meaning_->densities(frame, types_);
-        const State grains = meaning_->frame(frame, types_, grains_->place(first));
+        Gaps ignored;
+        const State grains = meaning_->frame(frame, types_, grains_->place(first), ignored);
         std::vector<double> sums(types_.words().size(), 0);
         for (std::size_t i = 0; i < grains.size(); ++i) {
             const auto species = static_cast<std::size_t>(grains.species[i]);
@@ -267,7 +286,11 @@ bool ForeignArchive::take_types(std::size_t index) {
 }
 
 State ForeignArchive::read(std::size_t index) const {
-    State frame = meaning_->frame(raw(index), types_, grains_->place(index));
+    Gaps gaps;
+    State frame = meaning_->frame(raw(index), types_, grains_->place(index), gaps);
+    keep_gaps(index, gaps);
+    for (std::size_t i = 0; i < frame.mass.size(); ++i)
+        if (std::isnan(frame.mass[i])) frame.mass[i] = usual_mass(frame, i);
     const State& moment = moments_.at(index);
     frame.step = moment.step;
     frame.time = moment.time;
@@ -275,25 +298,84 @@ State ForeignArchive::read(std::size_t index) const {
     return frame;
 }
 
+// The mass of a grain with the density of its species.
+double ForeignArchive::usual_mass(const State& frame, std::size_t grain) const {
+    const double density = world_.species.at(static_cast<std::size_t>(frame.species[grain])).density;
+    State sphere;
+    sphere.radius = {frame.radius[grain]};
+    return mass_of(sphere, 0, std::isfinite(density) ? density : kGlassDensity);
+}
+
+void ForeignArchive::keep_gaps(std::size_t index, const Gaps& gaps) const {
+    if (gaps.any()) gaps_[index] = gaps;
+}
+
 State ForeignArchive::grains(std::size_t index) const {
     State frame = read(index);
-    if (derived_) derive_velocities(index, frame);
+    if (!derived_) return frame;
+    derive_velocities(index, frame);
+    Gaps gaps;
+    if (const auto known = gaps_.find(index); known != gaps_.end()) gaps = known->second;
+    gaps.velocities = std::count_if(frame.velocity.begin(), frame.velocity.end(),
+                                    [](const Vec3& velocity) { return velocity.hasNaN(); });
+    keep_gaps(index, gaps);
     return frame;
 }
 
 std::optional<std::vector<Link>> ForeignArchive::touches(std::size_t index) const {
     if (!has_contacts_) return std::nullopt;
-    if (!contacts_) return touches_of(raw(index), options_, meaning_->units(), grains_->place(index));
+    Gaps gaps;
+    const auto counted = [&](const std::optional<std::vector<Link>>& links) {
+        if (gaps.contacts > 0) gaps_[index].contacts = gaps.contacts;
+        return links;
+    };
+    if (!contacts_)
+        return counted(touches_of(raw(index), options_, meaning_->units(), grains_->place(index), gaps));
     const auto found = contacts_at_.find(raw_steps_.at(index));
     if (found == contacts_at_.end()) return std::vector<Link>();
-    return touches_of(contacts_->read(found->second), options_, meaning_->units(),
-                      contacts_->place(found->second));
+    return counted(touches_of(contacts_->read(found->second), options_, meaning_->units(),
+                              contacts_->place(found->second), gaps));
+}
+
+std::vector<std::string> ForeignArchive::news_of_frames() const {
+    Gaps all;
+    std::size_t where = 0;
+    for (const auto& [index, gaps] : gaps_) {
+        if (all.first < 0 && gaps.first >= 0) where = index;
+        all.add(gaps);
+    }
+    const std::string name = path_.string();
+    std::vector<std::string> news;
+    std::vector<std::string> unknown;
+    if (all.velocities > 0)
+        unknown.push_back(fmt::format("{} velocit{}", all.velocities, all.velocities == 1 ? "y" : "ies"));
+    if (all.spins > 0) unknown.push_back(counted(all.spins, "spin"));
+    if (!unknown.empty())
+        news.push_back(fmt::format(
+            "{}: {} {} no number, or none that a grain can have{}; what is not known stays so: grey in "
+            "films, "
+            "nan in exports, in no mean",
+            name, fmt::join(unknown, " and "), all.velocities + all.spins == 1 ? "is" : "are",
+            all.first < 0 ? "" : fmt::format(" (first: grain {} in {})", all.first, grains_->place(where))));
+    if (all.masses > 0)
+        news.push_back(fmt::format("{}: {} {} no number above 0; the density of the species is taken", name,
+                                   fmt::format("{} mass{}", all.masses, all.masses == 1 ? "" : "es"),
+                                   all.masses == 1 ? "is" : "are"));
+    if (all.orientations > 0)
+        news.push_back(fmt::format("{}: {} {} no rotation; these grains are drawn as if they had not turned",
+                                   name, counted(all.orientations, "orientation"),
+                                   all.orientations == 1 ? "is" : "are"));
+    if (all.contacts > 0)
+        news.push_back(fmt::format("{}: {} {} left out, whose grains or force are no numbers", name,
+                                   counted(all.contacts, "contact"), all.contacts == 1 ? "is" : "are"));
+    return news;
 }
 
 StateSupply ForeignArchive::supply() const {
     StateSupply supply;
     supply.velocities = meaning_->has_velocities() || derived_;
     supply.spins = meaning_->has_spins();
+    supply.masses = meaning_->has_masses();
     supply.orientations = meaning_->has_orientations();
     supply.contacts = has_contacts_;
     return supply;
@@ -359,7 +441,8 @@ void ForeignArchive::derive_velocities(std::size_t index, State& frame) const {
             ways += way(frame.position[i], after.position[*will], world_.cell);
             time += after.time - frame.time;
         }
-        if (time > 0 && ways.norm() < 4 * frame.radius[i]) frame.velocity[i] = ways / time;
+        const bool known = time > 0 && ways.norm() < 4 * frame.radius[i];
+        frame.velocity[i] = known ? Vec3(ways / time) : Vec3::Constant(kUnknown);
     }
 }
 

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <string_view>
 
 #include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/files/foreign/names.hpp"
 
 namespace grainreel {
@@ -40,6 +43,15 @@ UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const
 }
 
 }  // namespace
+
+void Gaps::add(const Gaps& other) {
+    velocities += other.velocities;
+    spins += other.spins;
+    orientations += other.orientations;
+    masses += other.masses;
+    contacts += other.contacts;
+    if (first < 0) first = other.first;
+}
 
 void TypeList::add(const std::string& word) {
     if (place(word)) return;
@@ -86,15 +98,104 @@ GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const R
     }
     spin_ = {find("wx"), find("wy"), find("wz")};
     quaternion_ = {find("qw"), find("qx"), find("qy"), find("qz")};
-    for (const auto& column :
-         {place_[0], place_[1], place_[2], radius_, velocity_[0], velocity_[1], velocity_[2]})
+    refuse_words(table);
+    tell_of_unwrapped(frame);
+    tell_of_shapes(table);
+    if (!units_.real)
+        guesses_.push_back(fmt::format("{}: has units lj; one unit of length is drawn as 1 m", file_));
+}
+
+void GrainMeaning::refuse_words(const RawTable& table) const {
+    std::vector<Column> columns{radius_, density_, mass_};
+    for (const auto& three : {place_, velocity_, spin_})
+        columns.insert(columns.end(), three.begin(), three.end());
+    columns.insert(columns.end(), quaternion_.begin(), quaternion_.end());
+    for (const Column& column : columns)
         if (column && !table.columns[*column].words.empty())
             throw UserError(
                 fmt::format("{}: column {} holds words such as \"{}\", where numbers are needed; name "
                             "another column by --columns",
                             file_, table.columns[*column].name, table.columns[*column].words.front()));
-    if (!units_.real)
-        guesses_.push_back(fmt::format("{}: has units lj; one unit of length is drawn as 1 m", file_));
+    if (!id_) return;
+    // Names of grains may be words. A word among numbers is damage, and would give all grains other ids.
+    const std::vector<std::string>& words = table.columns[*id_].words;
+    const auto is_number = [](const std::string& word) { return number_in(word).has_value(); };
+    const auto word = std::find_if_not(words.begin(), words.end(), is_number);
+    if (word != words.end() && std::any_of(words.begin(), words.end(), is_number))
+        throw UserError(
+            fmt::format("{}: column {} holds the word \"{}\" among numbers; name another column "
+                        "of ids by --columns id=NAME, or write its number",
+                        file_, table.columns[*id_].name, excerpt(*word)));
+}
+
+// Places of LAMMPS' columns xu, yu and zu are moved back into the periodic box, where x, y and z would have
+// them.
+void GrainMeaning::tell_of_unwrapped(const RawFrame& frame) {
+    std::string names;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        unwrapped_[axis] = unwrapped_[axis] && frame.box && frame.box->periodic[axis];
+        if (!unwrapped_[axis]) continue;
+        names += fmt::format("{}{}={}", names.empty() ? "" : ",", kAxes[axis], names_[*place_[axis]]);
+    }
+    if (names.empty()) return;
+    guesses_.push_back(
+        fmt::format("{}: its places go on outside of its periodic box; they are shown inside of it, and "
+                    "--columns {} leaves them where they are",
+                    file_, names));
+}
+
+namespace {
+
+bool same_name(const std::string& name, const char* other) {
+    return std::equal(name.begin(), name.end(), other, other + std::string_view(other).size(),
+                      [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+}
+
+// Names of columns that say how far a grain reaches along its three axes: LAMMPS and LIGGGHTS, OVITO, VTK.
+constexpr std::array<std::array<const char*, 3>, 5> kExtents{
+    {{"shapex", "shapey", "shapez"},
+     {"c_shape[1]", "c_shape[2]", "c_shape[3]"},
+     {"asphericalshapex", "asphericalshapey", "asphericalshapez"},
+     {"aspherical_shape:0", "aspherical_shape:1", "aspherical_shape:2"},
+     {"shape:0", "shape:1", "shape:2"}}};
+constexpr std::array<const char*, 2> kBlockiness{"blockiness1", "blockiness2"};
+
+const RawColumn* named(const RawTable& table, const char* name) {
+    for (const RawColumn& column : table.columns)
+        if (same_name(column.name, name)) return &column;
+    return nullptr;
+}
+
+}  // namespace
+
+// Ellipsoids and superquadrics: grains whose extents differ, or whose blockiness is not that of an ellipsoid.
+void GrainMeaning::tell_of_shapes(const RawTable& table) {
+    constexpr double hair = 1e-3;
+    std::vector<std::string> names;
+    for (const auto& three : kExtents) {
+        std::array<const RawColumn*, 3> columns{};
+        for (std::size_t k = 0; k < 3; ++k) columns[k] = named(table, three[k]);
+        if (!columns[0] || !columns[1] || !columns[2]) continue;
+        for (std::size_t row = 0; row < table.rows && names.empty(); ++row) {
+            const auto [least, most] =
+                std::minmax({columns[0]->values[row], columns[1]->values[row], columns[2]->values[row]});
+            if (most - least > hair * most)
+                for (const RawColumn* column : columns) names.push_back(column->name);
+        }
+    }
+    for (const char* name : kBlockiness) {
+        const RawColumn* column = named(table, name);
+        if (column && std::any_of(column->values.begin(), column->values.end(),
+                                  [&](double value) { return std::abs(value - 2) > hair; }))
+            names.push_back(column->name);
+    }
+    if (names.empty()) return;
+    const std::string size = radius_ ? fmt::format("the {} in its column {}",
+                                                   is_diameter_ ? "diameter" : "radius", names_[*radius_])
+                                     : std::string("the radius of --radius");
+    guesses_.push_back(
+        fmt::format("{}: has grains that are no spheres ({}); they are drawn and measured as spheres with {}",
+                    file_, fmt::join(names, ", "), size));
 }
 
 std::optional<double> GrainMeaning::unit_in_name(Column column, Dimension dimension) {
@@ -120,6 +221,7 @@ void GrainMeaning::find_places(const RawTable& table) {
             if (place_[axis]) break;
             place_[axis] = column_for(letter + suffix, table, options_, file_);
             scaled_[axis] = scaled;
+            unwrapped_[axis] = place_[axis] && std::string_view(suffix).ends_with('u');
         }
     }
     flat_ = place_[0] && place_[1] && !place_[2];
@@ -185,13 +287,20 @@ Vec3 GrainMeaning::place_of(const RawFrame& raw, std::size_t row) const {
                     place[static_cast<Eigen::Index>(other)] += along[static_cast<Eigen::Index>(other)];
         }
     }
+    if (raw.box)
+        for (std::size_t edge = 3; edge-- > 0;) {
+            const auto a = static_cast<Eigen::Index>(edge);
+            const double length = raw.box->edges[edge][a];
+            if (unwrapped_[edge] && raw.box->periodic[edge] && length > 0)
+                place -= std::floor((place[a] - raw.box->origin[a]) / length) * raw.box->edges[edge];
+        }
     return place * place_unit_;
 }
 
 double GrainMeaning::radius_of(const RawFrame& raw, std::size_t row, const std::string& place) const {
     if (radius_) {
         const double number = value(raw.grains, radius_, row) * radius_unit_ * (is_diameter_ ? 0.5 : 1);
-        if (number > 0 && std::isfinite(number)) return number;
+        if (number > 0 && number <= kLargestRadius) return number;
         throw UserError(fmt::format(
             "{}: a grain in row {} has {} {}; give the radius by --radius 2mm, or name another column by "
             "--columns "
@@ -211,6 +320,12 @@ double GrainMeaning::radius_of(const RawFrame& raw, std::size_t row, const std::
 
 std::string GrainMeaning::type_of(const RawFrame& raw, std::size_t row) const {
     if (!type_) return "1";
+    const RawColumn& column = raw.grains.columns[*type_];
+    if (!std::isfinite(column.values[row]))
+        throw UserError(
+            fmt::format("{}: a grain in row {} has no type: its {} is {}; write it, or name "
+                        "another column by --columns type=NAME",
+                        file_, row + 1, column.name, column.values[row]));
     return type_word(raw.grains.columns[*type_], value(raw.grains, type_, row));
 }
 
@@ -255,6 +370,15 @@ std::optional<WorldCell> GrainMeaning::cell(const RawFrame& raw) const {
 
 namespace {
 
+double volume_of(double radius) {
+    return 4.0 / 3 * std::numbers::pi * radius * radius * radius;
+}
+
+// The number, or NaN where it is none or none that a grain can have.
+double or_unknown(double number, double limit) {
+    return std::abs(number) <= limit ? number : kUnknown;
+}
+
 std::vector<std::size_t> by_rising(const std::vector<std::int32_t>& ids) {
     std::vector<std::size_t> order(ids.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -265,7 +389,53 @@ std::vector<std::size_t> by_rising(const std::vector<std::int32_t>& ids) {
 
 }  // namespace
 
-State GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std::string& place) const {
+// The mass (kg) of the grain in a row; NaN where the file does not say a mass that a grain can have.
+double GrainMeaning::mass_in(const RawTable& table, std::size_t row, double radius) const {
+    const double mass = mass_ ? value(table, mass_, row) * units_.mass
+                              : value(table, density_, row) * units_.density() * volume_of(radius);
+    return mass > 0 && std::isfinite(mass) ? mass : kUnknown;
+}
+
+void GrainMeaning::add_grain(const RawFrame& raw, std::size_t row, const std::string& place, State& state,
+                             Gaps& gaps) const {
+    const RawTable& table = raw.grains;
+    const std::int32_t id = state.id.back();
+    const Vec3 where = place_of(raw, row);
+    if (!where.allFinite()) throw UserError(fmt::format("{}: grain {} has no finite place", place, id));
+    if (where.cwiseAbs().maxCoeff() > kFarthestPlace)
+        throw UserError(
+            fmt::format("{}: grain {} is at ({:.3g}, {:.3g}, {:.3g}) m, where no bed reaches; is "
+                        "the file damaged, or are its units others (--units)?",
+                        place, id, where.x(), where.y(), where.z()));
+    state.radius.push_back(radius_of(raw, row, place));
+    state.position.push_back(where);
+    Vec3 velocity(0, 0, 0), spin(0, 0, 0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<Eigen::Index>(axis);
+        if (velocity_[axis])
+            velocity[a] = or_unknown(value(table, velocity_[axis], row) * velocity_unit_[axis], kFastest);
+        if (spin_[axis]) spin[a] = or_unknown(value(table, spin_[axis], row) / units_.time, kFastestSpin);
+    }
+    state.velocity.push_back(velocity);
+    state.spin.push_back(spin);
+    gaps.velocities += velocity.hasNaN();
+    gaps.spins += spin.hasNaN();
+    if (gaps.first < 0 && (velocity.hasNaN() || spin.hasNaN())) gaps.first = id;
+    if (has_masses()) {
+        state.mass.push_back(mass_in(table, row, state.radius.back()));
+        gaps.masses += std::isnan(state.mass.back());
+    }
+    if (!has_orientations()) return;
+    const Quaternion turned(value(table, quaternion_[0], row), value(table, quaternion_[1], row),
+                            value(table, quaternion_[2], row), value(table, quaternion_[3], row));
+    const double size = turned.norm();
+    const bool known = size > 0 && std::isfinite(size);
+    state.orientation.push_back(known ? turned.normalized() : Quaternion::Identity());
+    gaps.orientations += !known;
+}
+
+State GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std::string& place,
+                          Gaps& gaps) const {
     const RawTable& table = raw.grains;
     check_columns(table, place);
     std::vector<std::int32_t> ids(table.rows);
@@ -296,28 +466,9 @@ State GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
                 fmt::format("{}: grain {} is of type {}, which no frame that was looked at first had; name "
                             "all types by --species",
                             place, ids[row], type_of(raw, row)));
-        const Vec3 where = place_of(raw, row);
-        if (!where.allFinite())
-            throw UserError(fmt::format("{}: grain {} has no finite place", place, ids[row]));
         frame.id.push_back(ids[row]);
         frame.species.push_back(static_cast<std::int32_t>(*species));
-        frame.radius.push_back(radius_of(raw, row, place));
-        frame.position.push_back(where);
-        Vec3 velocity(0, 0, 0), spin(0, 0, 0);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<Eigen::Index>(axis);
-            if (velocity_[axis]) velocity[a] = value(table, velocity_[axis], row) * velocity_unit_[axis];
-            if (spin_[axis]) spin[a] = value(table, spin_[axis], row) / units_.time;
-        }
-        frame.velocity.push_back(velocity.allFinite() ? velocity : Vec3(0, 0, 0));
-        frame.spin.push_back(spin.allFinite() ? spin : Vec3(0, 0, 0));
-        if (has_orientations()) {
-            Quaternion turned(value(table, quaternion_[0], row), value(table, quaternion_[1], row),
-                              value(table, quaternion_[2], row), value(table, quaternion_[3], row));
-            const double size = turned.norm();
-            frame.orientation.push_back(size > 0 && std::isfinite(size) ? turned.normalized()
-                                                                        : Quaternion::Identity());
-        }
+        add_grain(raw, row, place, frame, gaps);
     }
     return frame;
 }
@@ -331,7 +482,7 @@ std::vector<double> GrainMeaning::densities(const RawFrame& raw, const TypeList&
         const std::optional<std::size_t> species = types.place(type_of(raw, row));
         if (!species) continue;
         const double radius = radius_of(raw, row, file_);
-        const double volume = 4.0 / 3 * std::numbers::pi * radius * radius * radius;
+        const double volume = volume_of(radius);
         const double density = density_ ? value(raw.grains, density_, row) * units_.density()
                                         : value(raw.grains, mass_, row) * units_.mass / volume;
         if (!(density > 0) || !std::isfinite(density)) continue;
@@ -343,7 +494,7 @@ std::vector<double> GrainMeaning::densities(const RawFrame& raw, const TypeList&
 }
 
 std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOptions& options,
-                                            const UnitSystem& units, const std::string& file) {
+                                            const UnitSystem& units, const std::string& file, Gaps& gaps) {
     const RawTable& table = raw.contacts;
     const auto first = column_for("id1", table, options, file),
                second = column_for("id2", table, options, file);
@@ -356,7 +507,10 @@ std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOp
     for (std::size_t row = 0; row < table.rows; ++row) {
         Link touch{};
         const double a = at(*first, row), b = at(*second, row);
-        if (!(std::abs(a) <= kMostId && std::abs(b) <= kMostId)) continue;
+        if (!(std::abs(a) <= kMostId && std::abs(b) <= kMostId)) {
+            ++gaps.contacts;
+            continue;
+        }
         touch.first = static_cast<std::int32_t>(a);
         touch.second = static_cast<std::int32_t>(b);
         if (touch.first < 0) std::swap(touch.first, touch.second);
@@ -365,7 +519,10 @@ std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOp
             touch.force = std::abs(at(*normal, row)) * units.force();
         else if (fx && fy && fz)
             touch.force = Vec3(at(*fx, row), at(*fy, row), at(*fz, row)).norm() * units.force();
-        if (std::isfinite(touch.force)) touches.push_back(touch);
+        if (std::isfinite(touch.force))
+            touches.push_back(touch);
+        else
+            ++gaps.contacts;
     }
     return touches;
 }

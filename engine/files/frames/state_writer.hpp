@@ -39,7 +39,14 @@ class StateWriter {
     // Called before end(). Each of these records of fields.nc is a mean over a span of time in which a frame
     // lies.
     virtual void fields(const FieldsReader&, const std::vector<std::size_t>& /*records*/) {}
+    // What the user should know about what was written, a line each.
+    virtual std::vector<std::string> news() const { return {}; }
 };
+
+// For formats that a run starts from. These throw UserError where the velocity or spin of a grain is not
+// known, and tell that grains are at rest where none is known.
+void refuse_unknown_motion(const std::filesystem::path& path, const State& frame);
+std::vector<std::string> news_of_rest(const std::filesystem::path& path, const StateSupply& supply);
 
 struct WriteFormat {
     const char* name;    // "trajectory"
@@ -71,7 +78,8 @@ struct Exported {
     std::filesystem::path path;  // file or folder
     std::int64_t frames = 0;
     std::uintmax_t bytes = 0;
-    double first = 0;  // s, time of the first frame
+    double first = 0;                 // s, time of the first frame
+    std::vector<std::string> news{};  // what the user should know, a line each
 };
 
 // Throws UserError where `path` exists already (unless `replace`), or the folder around it is missing.

@@ -118,6 +118,9 @@ TrajectoryInfo trajectory_info(const StoredWorld& world, const StateSupply& supp
     info.container_turns = world.container_turns;
     info.orientation = supply.orientations;
     info.contact_numbers = supply.contact_numbers;
+    info.masses = supply.masses;
+    info.velocities = supply.velocities;
+    info.spins = supply.spins;
     if (world.cell) {
         info.cell_origin = world.cell->origin;
         for (int i = 0; i < 3; ++i) {

@@ -56,6 +56,8 @@ struct TrajectoryInfo {
     bool container_turns = false;        // container and floor turn, and frames have their rotations
     bool orientation = false;
     bool contact_numbers = false;
+    bool masses = false;                   // grains have masses of their own
+    bool velocities = true, spins = true;  // false where the files that were read have none
     bool checksums = true;          // false in a file of an earlier version, where damage may look like data
     Vec3 cell_origin{0, 0, 0};      // m
     Vec3 periodic_length{0, 0, 0};  // m, 0 where nothing is periodic

@@ -91,6 +91,7 @@ class Export final : public Verb {
                 fmt::format("--at: {:.6g} s was not kept; {:.6g} s is written, the kept moment that "
                             "is nearest",
                             *choice_.at, made.first));
+        for (const std::string& line : made.news) reporter.info(line);
         reporter.info(fmt::format("wrote {}: {}, {}", made.path.string(), counted(made.frames, "frame"),
                                   data_size_text(static_cast<double>(made.bytes))));
         print_exact(made.path.string() + "\n");

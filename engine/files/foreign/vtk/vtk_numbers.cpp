@@ -184,24 +184,9 @@ bool VtkWords::number(double& value) {
 // Reads less common numbers: "+1.5", 1e-400, 1e400, "1.5d0", "-1.#IND".
 bool VtkWords::odd_number(double& value) {
     const char* begin = at_;
-    std::string text(word());
-    if (const auto plain = number_in(text)) {
-        value = *plain;
+    if (const std::optional<double> odd = number_in(word(), Dialect::programs)) {
+        value = *odd;
         return true;
-    }
-    const std::size_t hash = text.find('#');
-    if (hash != std::string::npos && text.find("INF") == std::string::npos &&
-        number_in(text.substr(0, hash))) {
-        value = std::numeric_limits<double>::quiet_NaN();
-        return true;
-    }
-    const std::size_t exponent = text.find_first_of("dD");
-    if (exponent != std::string::npos) {
-        text[exponent] = 'e';
-        if (const auto fortran = number_in(text)) {
-            value = *fortran;
-            return true;
-        }
     }
     at_ = begin;
     return false;
