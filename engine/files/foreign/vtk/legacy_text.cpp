@@ -28,8 +28,8 @@ void LegacyText::refuse(const std::string& what) const {
     refuse_vtk_line(file_, line_of_byte(bytes_, last_), what);
 }
 
-void LegacyText::skip_blanks() {
-    while (at_ < bytes_.size() && is_blank(bytes_[at_])) ++at_;
+std::size_t LegacyText::place_of(const char* byte) const {
+    return static_cast<std::size_t>(byte - bytes_.data());
 }
 
 std::string_view LegacyText::line() {
@@ -42,10 +42,10 @@ std::string_view LegacyText::line() {
 }
 
 std::string_view LegacyText::word() {
-    skip_blanks();
-    last_ = at_;
-    while (at_ < bytes_.size() && !is_blank(bytes_[at_])) ++at_;
-    return bytes_.substr(last_, at_ - last_);
+    const std::string_view next = WordReader(bytes_.substr(at_)).next();
+    last_ = place_of(next.data());
+    at_ = last_ + next.size();
+    return next;
 }
 
 std::string_view LegacyText::peek() {
@@ -62,8 +62,10 @@ std::string_view LegacyText::word_in_line() {
 }
 
 bool LegacyText::at_end() {
-    skip_blanks();
-    return at_ == bytes_.size();
+    WordReader words(bytes_.substr(at_));
+    const bool more = words.has_word();
+    at_ = place_of(words.left().data());
+    return !more;
 }
 
 std::uint64_t LegacyText::count(const char* what) {
@@ -114,28 +116,31 @@ std::vector<T> LegacyText::numbers(VtkType type, std::uint64_t count, bool finit
     }
     check_room(count);
     values.reserve(count);
-    VtkWords words(bytes_.data() + at_, bytes_.data() + bytes_.size());
+    WordReader words(bytes_.substr(at_));
     for (std::uint64_t i = 0; i < count; ++i) {
-        double value = 0;
-        const bool end = words.at_end();
-        const bool good = words.number(value);
-        if (!good || (finite && !std::isfinite(value))) {
-            if (good) words = VtkWords(bytes_.data() + at_, bytes_.data() + bytes_.size());
-            for (std::uint64_t k = 0; good && k < i; ++k) words.word();
-            words.at_end();
-            last_ = static_cast<std::size_t>(words.at() - bytes_.data());
-            if (end) refuse(fmt::format("the file ends after {} of {} numbers; {}", i, count, kWriteAgain));
-            if (good) refuse("a place that is no number; remove the point or write its place");
-            refuse(fmt::format("\"{}\" after {} of {} numbers; {}", excerpt(words.word()), i, count,
-                               kWriteAgain));
-        }
+        const std::optional<double> value = words.next_number();
+        if (!value || (finite && !std::isfinite(*value))) refuse_number(i, count, words);
         if constexpr (std::is_integral_v<T>)
-            values.push_back(std::abs(value) < 9e15 ? static_cast<T>(value) : T(-1));
+            values.push_back(std::abs(*value) < 9e15 ? static_cast<T>(*value) : T(-1));
         else
-            values.push_back(value);
+            values.push_back(*value);
     }
-    at_ = static_cast<std::size_t>(words.at() - bytes_.data());
+    at_ = place_of(words.left().data());
     return values;
+}
+
+// Number `index` of `count` cannot be taken. words: stands before it where it is no number, and behind it
+// where it is none of a place.
+void LegacyText::refuse_number(std::uint64_t index, std::uint64_t count, WordReader words) {
+    const std::size_t behind = place_of(words.left().data());
+    words = WordReader(bytes_.substr(at_));
+    for (std::uint64_t k = 0; k < index; ++k) words.next();
+    const bool more = words.has_word();
+    last_ = place_of(words.left().data());
+    if (!more) refuse(fmt::format("the file ends after {} of {} numbers; {}", index, count, kWriteAgain));
+    if (behind > last_) refuse("a place that is no number; remove the point or write its place");
+    refuse(
+        fmt::format("\"{}\" after {} of {} numbers; {}", excerpt(words.next()), index, count, kWriteAgain));
 }
 
 template std::vector<double> LegacyText::numbers<double>(VtkType, std::uint64_t, bool);

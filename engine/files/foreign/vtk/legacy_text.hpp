@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
 namespace grainreel {
@@ -50,7 +51,8 @@ class LegacyText {
     [[noreturn]] void refuse(const std::string& what) const;
 
   private:
-    void skip_blanks();
+    std::size_t place_of(const char* byte) const;
+    [[noreturn]] void refuse_number(std::uint64_t index, std::uint64_t count, WordReader words);
     // The bytes of an array in the file.
     std::string_view stored(VtkType type, std::uint64_t count);
     void check_room(std::uint64_t count) const;

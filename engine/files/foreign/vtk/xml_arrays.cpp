@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 
 namespace grainreel {
@@ -106,30 +107,29 @@ template <class T>
 void XmlArrays::read_text(const XmlElement& array, std::optional<std::uint64_t> count, bool finite,
                           std::vector<T>& values) const {
     const std::string_view text = text_of_array(array);
-    VtkWords words(text.data(), text.data() + text.size());
-    const auto line = [&] {
-        return line_of_byte(bytes_, static_cast<std::size_t>(words.at() - bytes_.data()));
+    WordReader words(text);
+    const auto line_of = [&](const char* byte) {
+        return line_of_byte(bytes_, static_cast<std::size_t>(byte - bytes_.data()));
     };
+    const auto line = [&] { return line_of(words.left().data()); };
     if (count) values.reserve(*count);
-    while (!words.at_end()) {
-        const char* begin = words.at();
-        double value = 0;
-        if (!words.number(value)) {
-            const std::int64_t at = line();
-            refuse_vtk({&file_, at, place_of(array).array},
-                       fmt::format("\"{}\" is no number; {}", excerpt(words.word()), kWriteAgain));
-        }
-        if (finite && !std::isfinite(value))
-            refuse_vtk_line(file_, line_of_byte(bytes_, static_cast<std::size_t>(begin - bytes_.data())),
+    while (words.has_word()) {
+        const char* const begin = words.left().data();
+        const std::optional<double> value = words.next_number();
+        if (!value)
+            refuse_vtk({&file_, line(), place_of(array).array},
+                       fmt::format("\"{}\" is no number; {}", excerpt(words.next()), kWriteAgain));
+        if (finite && !std::isfinite(*value))
+            refuse_vtk_line(file_, line_of(begin),
                             "a place that is no number; remove the point or write its place");
         if (count && values.size() == *count)
             refuse_vtk(
                 {&file_, line(), place_of(array).array},
                 fmt::format("has more numbers than the {} that it must have; {}", *count, kWriteAgain));
         if constexpr (std::is_integral_v<T>)
-            values.push_back(std::abs(value) < 9e15 ? static_cast<T>(value) : T(-1));
+            values.push_back(std::abs(*value) < 9e15 ? static_cast<T>(*value) : T(-1));
         else
-            values.push_back(value);
+            values.push_back(*value);
     }
     if (count && values.size() < *count)
         refuse_vtk({&file_, line(), place_of(array).array},
