@@ -106,8 +106,7 @@ class BedWriter {
             for (std::size_t i = 0; i < frame.size(); ++i) {
                 seen.try_emplace(frame.id[i], Kept{frame.id[i], frame.species[i], frame.radius[i],
                                                    std::abs(frame.position[i].x())});
-                if (const double speed = frame.velocity[i].norm(); speed > bed_.highest_speed)
-                    bed_.highest_speed = speed;
+                bed_.highest_speed = std::max(bed_.highest_speed, frame.velocity[i].norm());  // none for NaN
                 take_into_box(frame.position[i]);
             }
         }
