@@ -190,6 +190,10 @@ TEST(Amber, FramesThatTheHeaderDoesNotCountAreTold) {
     bytes[7] = '\1';
     EXPECT_THAT(counts(amber_format(), bytes), ElementsAre(grains));
     EXPECT_THAT(news_of(amber_format(), bytes), tells({"counts 1 frame", "room for 2"}));
+    const std::string whole = Bed(NC_64BIT_OFFSET).bytes();
+    EXPECT_THAT(news_of(amber_format(), whole + std::string(10, 'x')),
+                tells({"10 bytes", "behind its 2 frames"}));
+    EXPECT_EQ(news_of(amber_format(), whole), "");
 }
 
 // The count is that of "streaming": the file has as many frames as there is room for.

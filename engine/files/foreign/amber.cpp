@@ -232,6 +232,13 @@ void AmberFile::tell_of_length() {
                         "out. Was it still "
                         "being written, or is it damaged?",
                         file_.string(), counted(declared_, "frame"), there));
+    constexpr std::uint64_t padding = 4;  // bytes
+    const std::uint64_t behind = netcdf_.bytes_behind_records();
+    if (there == declared_ && behind >= padding)
+        news_.push_back(
+            fmt::format("{}: {} bytes lie behind its {} and belong to none; was another frame being "
+                        "written, or is it damaged?",
+                        file_.string(), behind, counted(declared_, "frame")));
 }
 
 // Programs count a frame in the header only when it is whole, and a program that was stopped may not have

@@ -3,13 +3,11 @@
 #include "engine/files/foreign/foreign_archive.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
-#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/files/foreign/names.hpp"
@@ -339,36 +337,12 @@ std::optional<std::vector<Link>> ForeignArchive::touches(std::size_t index) cons
 
 std::vector<std::string> ForeignArchive::news_of_frames() const {
     Gaps all;
-    std::size_t where = 0;
+    std::string first;  // where the first grain is
     for (const auto& [index, gaps] : gaps_) {
-        if (all.first < 0 && gaps.first >= 0) where = index;
+        if (all.first < 0 && gaps.first >= 0) first = grains_->place(index);
         all.add(gaps);
     }
-    const std::string name = path_.string();
-    std::vector<std::string> news;
-    std::vector<std::string> unknown;
-    if (all.velocities > 0)
-        unknown.push_back(fmt::format("{} velocit{}", all.velocities, all.velocities == 1 ? "y" : "ies"));
-    if (all.spins > 0) unknown.push_back(counted(all.spins, "spin"));
-    if (!unknown.empty())
-        news.push_back(fmt::format(
-            "{}: {} {} no number, or none that a grain can have{}; what is not known stays so: grey in "
-            "films, "
-            "nan in exports, in no mean",
-            name, fmt::join(unknown, " and "), all.velocities + all.spins == 1 ? "is" : "are",
-            all.first < 0 ? "" : fmt::format(" (first: grain {} in {})", all.first, grains_->place(where))));
-    if (all.masses > 0)
-        news.push_back(fmt::format("{}: {} {} no number above 0; the density of the species is taken", name,
-                                   fmt::format("{} mass{}", all.masses, all.masses == 1 ? "" : "es"),
-                                   all.masses == 1 ? "is" : "are"));
-    if (all.orientations > 0)
-        news.push_back(fmt::format("{}: {} {} no rotation; these grains are drawn as if they had not turned",
-                                   name, counted(all.orientations, "orientation"),
-                                   all.orientations == 1 ? "is" : "are"));
-    if (all.contacts > 0)
-        news.push_back(fmt::format("{}: {} {} left out, whose grains or force are no numbers", name,
-                                   counted(all.contacts, "contact"), all.contacts == 1 ? "is" : "are"));
-    return news;
+    return all.words(path_.string(), first);
 }
 
 StateSupply ForeignArchive::supply() const {

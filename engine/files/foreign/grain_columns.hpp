@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/files/foreign/gaps.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/state_archive.hpp"
@@ -34,15 +35,6 @@ class TypeList {
 
 // The word for a value in a column of types: "1" for 1.0, or the column's own word.
 std::string type_word(const RawColumn& column, double value);
-
-// What a frame does not say of its grains and contacts, although it has columns for it: numbers of grains,
-// and the id of the first.
-struct Gaps {
-    std::int64_t velocities = 0, spins = 0, orientations = 0, masses = 0, contacts = 0;
-    std::int32_t first = -1;  // id of the first grain without a velocity or spin; -1: none
-    void add(const Gaps& other);
-    bool any() const { return velocities + spins + orientations + masses + contacts > 0; }
-};
 
 class GrainMeaning {
   public:
