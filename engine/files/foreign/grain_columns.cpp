@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"
@@ -223,13 +222,13 @@ void GrainMeaning::add_types(const RawFrame& raw, TypeList& types) const {
         types.add("1");
         return;
     }
-    // Neighbouring rows often have the same type, so the word is made only where the type changes.
-    double last = std::numeric_limits<double>::quiet_NaN();
+    // Making the word of a type takes long, so that it is made once.
+    std::vector<double> known;
     constexpr std::size_t most = 1000;
     for (std::size_t row = 0; row < raw.grains.rows; ++row) {
         const double number = value(raw.grains, type_, row);
-        if (number == last) continue;
-        last = number;
+        if (std::find(known.begin(), known.end(), number) != known.end()) continue;
+        known.push_back(number);
         types.add(type_of(raw, row));
         if (types.words().size() > most)
             throw UserError(

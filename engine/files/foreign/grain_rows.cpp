@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 
@@ -162,26 +163,28 @@ State GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
     }
     const std::vector<std::size_t> order = by_rising(ids);
     State frame;
-    std::optional<std::size_t> species;
-    double last_type = 0;
+    std::vector<std::pair<double, std::size_t>> known;  // types so far, and their species
     for (std::size_t i = 0; i < order.size(); ++i) {
         const std::size_t row = order[i];
         if (i > 0 && ids[order[i - 1]] == ids[row])
             throw UserError(
                 fmt::format("{}: grain {} comes twice; a grain has one row in each frame", place, ids[row]));
-        // Neighbouring rows often have the same type, so the word is made only where the type changes.
+        // Making the word of a type takes long, so that it is made once.
         const double type = type_ ? value(table, type_, row) : 0;
-        if (!species || type != last_type) {
-            species = types.place(type_of(raw, row));
-            last_type = type;
+        auto species = std::find_if(known.begin(), known.end(),
+                                    [type](const auto& entry) { return entry.first == type; });
+        if (species == known.end()) {
+            const std::optional<std::size_t> named = types.place(type_of(raw, row));
+            if (!named)
+                throw UserError(fmt::format(
+                    "{}: grain {} is of type {}, which no frame that was looked at first had; name "
+                    "all types by --species",
+                    place, ids[row], type_of(raw, row)));
+            known.emplace_back(type, *named);
+            species = std::prev(known.end());
         }
-        if (!species)
-            throw UserError(
-                fmt::format("{}: grain {} is of type {}, which no frame that was looked at first had; name "
-                            "all types by --species",
-                            place, ids[row], type_of(raw, row)));
         frame.id.push_back(ids[row]);
-        frame.species.push_back(static_cast<std::int32_t>(*species));
+        frame.species.push_back(static_cast<std::int32_t>(species->second));
         add_grain(raw, row, place, frame, gaps);
     }
     return frame;
