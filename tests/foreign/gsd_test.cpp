@@ -204,6 +204,13 @@ TEST(Gsd, AStepThatNoRunReachesIsRefused) {
     EXPECT_THAT(complaint_of(gsd_format(), gsd.bytes()), tells({"frame 2", "step", "no run reaches"}));
 }
 
+TEST(Gsd, APlaceFarOutsideOfTheBoxIsRefused) {
+    GsdBytes gsd = bed();
+    gsd.chunk(2, "particles/position", 3, Floats{1, 1, 1, 2, 2, 2, 3, 1e5F, 3});
+    EXPECT_THAT(complaint_of(gsd_format(), gsd.bytes()),
+                tells({"grain 2", "frame 2", "y", "outside of the box"}));
+}
+
 TEST(Gsd, ShapesThatAreNoSpheresAreTold) {
     GsdBytes gsd = bed();
     gsd.text(0, "particles/type_shapes",

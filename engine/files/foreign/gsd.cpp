@@ -80,6 +80,7 @@ class GsdFrames : public RawFile {
     void add_log(RawTable& grains, const std::string& name, std::size_t frame) const;
     void name_types(RawTable& grains, std::size_t frame) const;
     void add_diameters_of_shapes(RawTable& grains, std::size_t frame) const;
+    void check_places(const RawFrame& frame, std::size_t index, std::uint64_t byte) const;
     std::int64_t step_of(std::size_t frame) const;
     void tell_of_shapes(const std::string& name);
 
@@ -258,6 +259,24 @@ void GsdFrames::add_diameters_of_shapes(RawTable& grains, std::size_t frame) con
     grains.columns.push_back(std::move(column));
 }
 
+// The schema has all places in the box. One that is far outside of it is damage. byte: where the places are.
+void GsdFrames::check_places(const RawFrame& frame, std::size_t index, std::uint64_t byte) const {
+    constexpr double far = 10;  // times the box's own reach
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::string name(1, "xyz"[axis]);
+        const RawColumn* column = frame.grains.find(name);
+        double reach = 0;
+        for (const Vec3& edge : frame.box->edges)
+            reach += 0.5 * std::abs(edge[static_cast<Eigen::Index>(axis)]);
+        for (std::size_t i = 0; column && reach > 0 && i < frame.grains.rows; ++i)
+            if (std::abs(column->values[i]) > far * reach)
+                file_.fault(byte,
+                            fmt::format("grain {} of frame {} has {} = {:.3g}, far outside of the box; is "
+                                        "the file damaged?",
+                                        i, index, name, column->values[i]));
+    }
+}
+
 RawFrame GsdFrames::read(std::size_t index) const {
     const std::lock_guard lock(reading_);
     RawFrame frame;
@@ -277,6 +296,7 @@ RawFrame GsdFrames::read(std::size_t index) const {
     }
     if (!frame.grains.find("type") && file_.has("particles/types"))
         frame.grains.columns.push_back({"type", std::vector<double>(frame.grains.rows, 0.0), {}});
+    if (frame.box && places) check_places(frame, index, places->place);
     name_types(frame.grains, index);
     add_diameters_of_shapes(frame.grains, index);
     return frame;
