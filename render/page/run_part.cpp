@@ -290,7 +290,8 @@ std::vector<std::string> RunPart::news() const {
     const auto add = [&](const std::string& line) {
         if (!line.empty()) news.push_back(line);
     };
-    if (!run_json_.fault.empty())
+    const bool imported = run_.run && run_.run->kind() == StoredRun::Kind::imported;  // it has no run.json
+    if (!run_json_.fault.empty() && !imported)
         add(run_json_.fault + "; how the run ended and what made it are not on the page");
     if (!no_charts_.empty()) add(no_charts_ + "; the page has no charts");
     if (!table_fault_.empty() && news.end() == std::find_if(news.begin(), news.end(), [&](const auto& line) {

@@ -10,7 +10,6 @@ void Gaps::add(const Gaps& other) {
     spins += other.spins;
     orientations += other.orientations;
     masses += other.masses;
-    contacts += other.contacts;
     if (first < 0) first = other.first;
 }
 
@@ -41,9 +40,6 @@ std::vector<std::string> Gaps::words(const std::string& name, const std::string&
     if (orientations > 0)
         lines.push_back(fmt::format("{}: {} no rotation; these grains are drawn as if they had not turned",
                                     name, are(orientations, "orientation is", "orientations are")));
-    if (contacts > 0)
-        lines.push_back(fmt::format("{}: {} left out, whose grains or force are no numbers", name,
-                                    are(contacts, "contact is", "contacts are")));
     return lines;
 }
 

@@ -68,6 +68,8 @@ class GrainMeaning {
     State frame(const RawFrame& raw, const TypeList& types, const std::string& place, Gaps& gaps) const;
     // Mean density of each type in kg/m3 from columns of density or mass; NaN where it is not known.
     std::vector<double> densities(const RawFrame& raw, const TypeList& types) const;
+    // The smallest id of a frame with grains.
+    double least_id(const RawFrame& raw) const;
     // The box of a frame in m.
     std::optional<WorldCell> cell(const RawFrame& raw) const;
 
@@ -113,8 +115,8 @@ class GrainMeaning {
 };
 
 // The contacts of a frame by ids, with forces in N; wall k is -1 - k. None where the table has no pairs of
-// ids. Contacts whose ids or force are no numbers are left out and counted in gaps.
+// ids. Contacts whose ids or force are no numbers are left out.
 std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOptions& options,
-                                            const UnitSystem& units, const std::string& file, Gaps& gaps);
+                                            const UnitSystem& units, const std::string& file);
 
 }  // namespace grainreel

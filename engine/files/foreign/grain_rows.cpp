@@ -211,7 +211,7 @@ std::vector<double> GrainMeaning::densities(const RawFrame& raw, const TypeList&
 }
 
 std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOptions& options,
-                                            const UnitSystem& units, const std::string& file, Gaps& gaps) {
+                                            const UnitSystem& units, const std::string& file) {
     const RawTable& table = raw.contacts;
     const auto first = column_for("id1", table, options, file),
                second = column_for("id2", table, options, file);
@@ -224,10 +224,7 @@ std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOp
     for (std::size_t row = 0; row < table.rows; ++row) {
         Link touch{};
         const double a = at(*first, row), b = at(*second, row);
-        if (!(std::abs(a) <= kMostId && std::abs(b) <= kMostId)) {
-            ++gaps.contacts;
-            continue;
-        }
+        if (!(std::abs(a) <= kMostId && std::abs(b) <= kMostId)) continue;
         touch.first = static_cast<std::int32_t>(a);
         touch.second = static_cast<std::int32_t>(b);
         if (touch.first < 0) std::swap(touch.first, touch.second);
@@ -236,10 +233,7 @@ std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOp
             touch.force = std::abs(at(*normal, row)) * units.force();
         else if (fx && fy && fz)
             touch.force = Vec3(at(*fx, row), at(*fy, row), at(*fz, row)).norm() * units.force();
-        if (std::isfinite(touch.force))
-            touches.push_back(touch);
-        else
-            ++gaps.contacts;
+        if (std::isfinite(touch.force)) touches.push_back(touch);
     }
     return touches;
 }

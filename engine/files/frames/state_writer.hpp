@@ -36,11 +36,13 @@ class StateWriter {
     // Called before frame() with the contacts of that frame, where the archive knows their points and
     // tangential forces.
     virtual void contacts(const std::vector<SavedContact>&) {}
+    // Called before frame() with the box of that frame, for formats that have one.
+    virtual void cell(const std::optional<WorldCell>&) {}
+    // What the user should know of the file, once it is written.
+    virtual std::vector<std::string> news() const { return {}; }
     // Called before end(). Each of these records of fields.nc is a mean over a span of time in which a frame
     // lies.
     virtual void fields(const FieldsReader&, const std::vector<std::size_t>& /*records*/) {}
-    // What the user should know about what was written, a line each.
-    virtual std::vector<std::string> news() const { return {}; }
 };
 
 // For formats that a run starts from. These throw UserError where the velocity or spin of a grain is not
@@ -70,15 +72,16 @@ std::unique_ptr<StateWriter> frame_writer(const std::string& format, const std::
 
 // Which frames of an archive are exported.
 struct ExportChoice {
-    std::optional<double> from, until, at;  // s
-    std::int64_t every = 1;                 // one of so many frames is taken
+    std::optional<double> from{}, until{}, at{};  // s
+    std::int64_t every = 1;                       // one of so many frames is taken
 };
 
 struct Exported {
     std::filesystem::path path;  // file or folder
     std::int64_t frames = 0;
     std::uintmax_t bytes = 0;
-    double first = 0;                 // s, time of the first frame
+    double first = 0;      // s, time of the first frame
+    bool is_asked = true;  // with ExportChoice::at: whether that frame is the moment that was asked for
     std::vector<std::string> news{};  // what the user should know, a line each
 };
 

@@ -36,11 +36,17 @@ struct Imported {
 Imported import_run(const ImportRequest& request);
 
 // The same in the user's cache folder ($XDG_CACHE_HOME/grainreel/imports), where a later call with the same
-// files (by name, size, time and inode), options and program version finds it again. If all imports together
-// exceed 4 GB, those are removed that were not used for the longest time. Without a cache folder that is the
-// user's alone (own_folder.hpp) the import is made in the temporary folder. Throws UserError where a link or
-// somebody else has taken the name there.
+// files (by name, size, times and inode, also those that a list names), options and program version finds it
+// again. An import that was damaged or changed since is made anew. If all imports together exceed 4 GB, those
+// are removed that were not used for the longest time. Without a cache folder that is the user's alone
+// (own_folder.hpp), or where that is full, the import is made in the temporary folder. Throws UserError where
+// a link or somebody else has taken the name there.
 Imported cached_import(ImportRequest request);
+
+// A message in which the folder of an import has the name of the files that it was made of, which the user
+// knows: "bed.dump: trajectory.nc: frame 3 ...".
+std::string named_as(std::string text, const std::filesystem::path& folder,
+                     const std::filesystem::path& from);
 
 // What is in that folder.
 struct ImportsKept {

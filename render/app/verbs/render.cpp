@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/driver/pace.hpp"
@@ -105,10 +106,12 @@ class Render final : public Verb {
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
         // The files may be large, or of a job that has not begun.
-        if (is_still())
+        if (is_still()) {
             check_still(film_, request_);
-        else if (film_.out && slurm_ == 0)
+        } else if (film_.out && slurm_ == 0) {
+            check_folder_name(*film_.out);
             RunFolder::check(*film_.out, film_.force);
+        }
         if (follow_) return is_handover(request_.run) ? follow_job(reporter) : follow(reporter);
         const RunToRead read = run_to_read(request_.run, reading_, reporter);
         request_.run = read.folder;
@@ -152,7 +155,7 @@ class Render final : public Verb {
         if (std::filesystem::exists(request_.run / "scene.toml", ignored))
             throw UserError(fmt::format(
                 "--follow: is for files of other programs; a run of ours is shown by: {} watch {}",
-                program_call(), request_.run.string()));
+                program_call(), shell_word(request_.run.string())));
         FollowRun film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle()},
                        reporter);
         return tell_folder(film.run(), film_);

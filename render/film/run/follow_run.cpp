@@ -134,8 +134,10 @@ void FollowRun::look_again() {
     }
     if (!now) return;
     if (now->moments().size() < drawn_)
-        throw RunError(fmt::format("{}: has {} frames, but {} were drawn; it was truncated or replaced",
-                                   what_.from.string(), now->moments().size(), drawn_));
+        throw RunError(
+            fmt::format("{}: has {} frames, but {} were drawn; it was truncated or replaced, or its "
+                        "run went on from an earlier moment",
+                        what_.from.string(), now->moments().size(), drawn_));
     if (species_of(*now) != species_of(*frames_))
         throw RunError(
             fmt::format("{}: has a type that the frames before lacked; name all types by --species",
