@@ -83,6 +83,7 @@ class ForeignArchive final : public StateArchive {
     std::optional<WorldCell> cell(std::size_t index) const override { return meaning_->cell(raw(index)); }
     std::optional<std::int64_t> written_step(std::size_t index) const override;
     std::vector<std::string> news() const override { return news_; }
+    std::vector<std::string> news_of_frames() const override;
 
     // Adds the types of a frame, and of those beside it that its velocities come from, to the species of the
     // world. Returns whether any is new; then species that follow it have other numbers than before.
@@ -113,6 +114,7 @@ class ForeignArchive final : public StateArchive {
     void choose_from(const std::vector<std::filesystem::path>& files);
     void add_companions(const std::filesystem::path& file);
     void list_moments();
+    void check_clock(const std::vector<double>& times) const;
     void survey();
     std::vector<std::size_t> looks() const;
     bool look_at(std::size_t index);
@@ -126,6 +128,8 @@ class ForeignArchive final : public StateArchive {
     static void rest_at_first(MovingWall& wall, std::size_t first);
     void decide_velocities();
     State read(std::size_t index) const;
+    double usual_mass(const State& frame, std::size_t grain) const;
+    void keep_gaps(std::size_t index, const Gaps& gaps) const;
     void derive_velocities(std::size_t index, State& frame) const;
 
     std::filesystem::path path_;
@@ -147,6 +151,7 @@ class ForeignArchive final : public StateArchive {
     bool has_contacts_ = false, derived_ = false;
     std::size_t first_with_grains_ = 0;
     std::vector<std::string> news_;
+    mutable std::map<std::size_t, Gaps> gaps_;  // by the number of the frame; only where there are some
     mutable std::size_t contacts_passed_over_ = 0;
     // The frames that were read last, with their numbers: one, or three in a row where velocities come from
     // the frames beside each. Frame k is in slot k modulo their number.
