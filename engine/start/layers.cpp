@@ -74,7 +74,7 @@ class Room {
     bool is_wedged(const Vec3& centre, double radius) const {
         constexpr double kFacing = 0.85;  // cosine
         for (const SceneMesh& mesh : meshes_) {
-            const auto nearest = mesh.surface->nearest(centre, radius);
+            const auto nearest = mesh.surface->nearest(centre, 2 * radius);
             if (!nearest || !(nearest->point.squared > 0)) continue;
             const double distance = std::sqrt(nearest->point.squared), room = 2 * radius - distance;
             const Vec3 away = (centre - nearest->point.at) / distance;

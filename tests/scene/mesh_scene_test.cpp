@@ -447,8 +447,8 @@ TEST_F(MeshScene, TellsWhatSeamsOfARoundWallCost) {
         return std::string();
     };
     const double sine = std::sin(2 * pi / 36);
-    EXPECT_THAT(warning(36, 0.5), tells({"file", "\"plate\"", "10 degrees",
-                                         fmt::format("{:.2g} %", 75 * sine * sine), "more facets"}));
+    EXPECT_THAT(warning(36, 0.5),
+                tells({"\"plate\"", "10 degrees", fmt::format("{:.2g} %", 75 * sine * sine), "more facets"}));
     EXPECT_EQ(warning(36, 0.95), "");  // 0.3 %
     EXPECT_NE(warning(72, 0.5), "");   // 0.57 %
     EXPECT_EQ(warning(72, 0.6), "");   // 0.49 %
