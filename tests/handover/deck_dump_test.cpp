@@ -61,11 +61,11 @@ TEST_F(DeckDumps, FramesComeOnceTheyAreWhole) {
 }
 
 TEST_F(DeckDumps, SaysWhichNumberIsNotFinite) {
-    std::string bad = frame_text(0, {1, 2});
+    std::string bad = frame_text(10, {1, 2});
     bad.replace(bad.find("1 2 3 4 5 6\n2"), 1, "nan");  // vx of atom 1
     add(frame_text(0, {1, 2}) + bad);
     EXPECT_EQ(said(), "");
-    EXPECT_THAT(said(), tells({"x.dump: step 0: atom 1", "nan", "vx", "no finite number"}));
+    EXPECT_THAT(said(), tells({"x.dump: step 10: atom 1", "nan", "vx", "no finite number"}));
 }
 
 TEST_F(DeckDumps, OtherColumnsAreNotTheDecks) {

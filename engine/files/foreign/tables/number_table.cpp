@@ -80,6 +80,7 @@ class NumberTable : public RawFile {
     bool take_row();
     FrameRows& frame_at(double clock);
     void drop_last_frame();
+    void sort_frames();
     double clock_of(std::size_t column) const;
     void add_rows(std::vector<ColumnFiller>& columns, const RowGroup& run) const;
     void add_row(std::vector<ColumnFiller>& columns) const;
@@ -172,10 +173,23 @@ FrameRows& NumberTable::frame_at(double clock) {
     return frame;
 }
 
+// Orders the frames by time. If a time comes twice, the order in which they were written tells what a restart
+// gave up, and stays.
+void NumberTable::sort_frames() {
+    if (frames_.size() != frame_of_.size()) return;
+    std::vector<FrameRows> sorted;
+    for (const auto& [clock, frame] : frame_of_) sorted.push_back(std::move(frames_[frame]));
+    frames_ = std::move(sorted);
+}
+
 void NumberTable::drop_last_frame() {
     const auto last = frame_of_.find(last_);
     if (last == frame_of_.end()) return;
-    frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(last->second));
+    const std::size_t gone = last->second;
+    frame_of_.erase(last);
+    for (auto& [clock, frame] : frame_of_)
+        if (frame > gone) --frame;
+    frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(gone));
 }
 
 // Adds the present row to the frame of its time. Returns false where the file ends within the row.
@@ -233,6 +247,7 @@ void NumberTable::find_frames() {
     }
     if (lines_.cut_off()) news_.push_back(fmt::format("{}: its packed bytes end too early", name));
     if (frames_.empty()) frames_.emplace_back();
+    sort_frames();
     for (FrameRows& frame : frames_) {
         moments_.push_back(frame.moment);
         runs_.push_back(std::move(frame.runs));
