@@ -94,7 +94,7 @@ TEST(GrainColours, AreNeutralWhereTheQuantityIsUnknown) {
     Shot frame = two_balls();
     frame.velocity[0].x() = frame.spin[0].y() = std::nan("");
     for (const GrainValue by : {GrainValue::speed, GrainValue::spin, GrainValue::kinetic_energy}) {
-        GrainColours colours(coloured(by, 0, 1, ""));
+        GrainColours colours(coloured(by, 0, 100, ""));
         expect_albedo(colours, frame, 0, neutral_grain);
         EXPECT_EQ(colours.clipped().above, 0) << static_cast<int>(by);
     }

@@ -193,8 +193,8 @@ const std::vector<Case>& cases() {
          0x91b3fafd2d4e8ee2},
         {"Bucket", of_project("bucket.liggghts"), timed(), 0xd3e466c418891abd},
         {"Shaken", of_project("shaken_unwrapped.dump"), with_radius(), 0x8465ff871a408cff},
-        {"Triclinic", of_project("triclinic_cgs.dump"), with_radius(), 0x5abb9475f36e2218},
-        {"TriclinicBinary", of_project("triclinic.dump.bin"), timed_with_radius(), 0x498ebfa543f938fa},
+        {"Triclinic", of_project("triclinic_cgs.dump"), with_radius(), 0xa81a8ce208c150e8},
+        {"TriclinicBinary", of_project("triclinic.dump.bin"), timed_with_radius(), 0xbab4680a617a9c2f},
         {"ContactsAlone", of_project("shaken_contacts.dump"), timed(), 0xd71c0a8c63843230},
         {"ContactsBeside",
          [](const fs::path& folder) {

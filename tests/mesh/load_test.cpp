@@ -57,7 +57,7 @@ TEST(MeshFile, NumbersOfAllKinds) {
     const LoadedMesh loaded =
         load_mesh(folder.write("numbers.stl",
                                "solid\nfacet\nouter loop\nvertex +1.5 0. -2.e-016\nvertex -1. 1e-400 "
-                               ".5\nvertex 2E+0 -3.25 1.0e+000\nendloop\nendfacet\n"));
+                               ".5\nvertex 2E+0 -3.25 1.0e+000\nendloop\nendfacet\nendsolid\n"));
     const std::vector<Vec3> expected{{1.5, 0, -2e-16}, {-1, 0, 0.5}, {2, -3.25, 1}};
     EXPECT_EQ(loaded.mesh.vertices, expected);
 }

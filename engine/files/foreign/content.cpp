@@ -58,13 +58,16 @@ void Content::read_window(std::uint64_t place, std::size_t least) const {
     const std::size_t had = window_.size();
     if (had >= least) return;
     window_.resize(least);
-    window_.resize(had + source_->read(window_.data() + had, least - had));
+    const std::size_t got = source_->read(window_.data() + had, least - had);
+    window_.resize(had + got);
+    if (got < least - had) size_ = window_begin_ + window_.size();
 }
 
 std::string_view Content::from(std::uint64_t place, std::size_t least) const {
     const std::uint64_t end = window_begin_ + window_.size();
     const bool held = place >= window_begin_ && place <= end && (end - place >= least || end == size_);
-    if (!held && source_) read_window(place, std::max(least, kPiece));
+    // One piece more than is asked for, so that short steps forward do not move the window each time.
+    if (!held && source_) read_window(place, std::max(least, kPiece) + kPiece);
     if (place < window_begin_ || place - window_begin_ > window_.size()) return {};
     return std::string_view(window_).substr(static_cast<std::size_t>(place - window_begin_));
 }

@@ -45,7 +45,7 @@ class Compare final : public Verb {
         add_camera_file(parser, camera_, CameraOptions::use);  // each panel has its own, so none is kept
         add_film(parser, film_,
                  "Folder of the film, which has a folder for each run [output/ and the scenes' names]");
-        no_cache_ = add_no_cache(parser, film_.keep_packings);
+        add_no_cache(parser, film_.keep_packings)->each([this](const std::string&) { no_cache_ = true; });
         for (const char* option : {"--part", "--parts"})
             parser
                 .add_option_function<std::string>(
@@ -91,7 +91,7 @@ class Compare final : public Verb {
         std::error_code ignored;
         for (const std::filesystem::path& input : request_.inputs)
             runs += std::filesystem::is_directory(input, ignored) ? 1 : 0;
-        if (no_cache_->count() > 0 && runs == request_.inputs.size())
+        if (no_cache_ && runs == request_.inputs.size())
             throw UserError("--no-cache: is for scenes that are run, and all of these are finished runs");
         if (!request_.replay && runs == 0)
             throw UserError("--no-replay: is for finished runs, and all of these are scenes to be run");
@@ -122,7 +122,7 @@ class Compare final : public Verb {
     }
 
     CompareRequest request_;
-    CLI::Option* no_cache_ = nullptr;
+    bool no_cache_ = false;
     CameraFiles camera_;
     ReadingOptions reading_;
     FilmRequest film_;

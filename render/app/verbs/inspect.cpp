@@ -92,7 +92,7 @@ class Inspect final : public Verb {
             ->check(not_empty())
             ->excludes(average);
         add_gl(parser, asks_.gl);
-        gl_ = parser.get_option("--gl");
+        parser.get_option("--gl")->each([this](const std::string&) { gl_given_ = true; });
         add_sets(parser, asks_.sets,
                  "With --pixel or --png: another value for a key of [film], as for render; may be repeated");
         add_still_keys(parser, asks_.sets);
@@ -138,7 +138,7 @@ class Inspect final : public Verb {
             throw UserError("--steady: is of the whole run; leave moment, mean and picture out");
         if (asks_.average && !asks_.pixel.empty())
             throw UserError("--average: --pixel is of one picture, so there is no mean; leave one out");
-        if (gl_->count() > 0 && asks_.picture.empty())
+        if (gl_given_ && asks_.picture.empty())
             throw UserError("--gl: says what draws the picture; add --png");
         if (asks_.film_time && !asks_.draws())
             throw UserError("--film-time: says what a picture shows; add --png or --pixel");
@@ -225,7 +225,7 @@ class Inspect final : public Verb {
     }
 
     InspectRequest asks_;
-    CLI::Option* gl_ = nullptr;
+    bool gl_given_ = false;
 };
 
 }  // namespace
