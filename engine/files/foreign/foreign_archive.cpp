@@ -359,6 +359,12 @@ State ForeignArchive::grains(std::size_t index) const {
     return frame;
 }
 
+bool ForeignArchive::keeps_steps() const {
+    for (std::size_t k = 0; k < moments_.size(); ++k)
+        if (written_step(k) != moments_[k].step) return false;
+    return true;
+}
+
 bool ForeignArchive::has_contacts_of(std::size_t index) const {
     if (!has_contacts_) return false;
     return contacts_ ? contacts_at_.contains(raw_steps_.at(index)) : grains_->moments()[index].has_contacts;

@@ -102,6 +102,8 @@ class ForeignArchive final : public StateArchive {
     const std::vector<std::filesystem::path>& files() const { return all_files_; }
     // The name of the format: "LAMMPS text dump".
     const std::string& format() const { return grains_->facts().format; }
+    // Whether State::step is the step of the files in all moments.
+    bool keeps_steps() const;
     // How many contacts touches() left out so far: between walls, or without a finite force or ids.
     std::size_t contacts_passed_over() const { return contacts_passed_over_; }
     // Whether velocities are computed from the places of neighbouring moments.

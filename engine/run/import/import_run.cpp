@@ -126,6 +126,10 @@ ArrivalFacts arrival_facts(const Scene& scene, const ForeignArchive& archive, co
     world.traffic = true;  // in a run of another program any grain may come and go
     world.most_grains = std::max<std::size_t>(1, survey.places);
     if (archive.world().cell) world.cell = archive.world().cell;
+    // A single moment without a time gets the step 0 (Import::take).
+    const bool single = !archive.world().time_known && archive.moments().size() == 1;
+    world.steps_known = archive.keeps_steps() && (!single || archive.moments().front().step == 0);
+    world.first_id = archive.world().first_id;
     ArrivalFacts facts;
     facts.supply = archive.supply();
     facts.supply.masses = survey.masses;

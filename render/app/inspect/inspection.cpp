@@ -184,13 +184,6 @@ class Inspection {
         AnswerMoment about;
     };
 
-    // The step of a kept moment, where the files have one. The copy of an import does not know whether they
-    // do.
-    static std::optional<std::int64_t> step_of(const StoredRun& run, std::size_t index) {
-        if (run.kind() == StoredRun::Kind::imported) return std::nullopt;
-        return run.written_step(index);
-    }
-
     ChosenMoment snapshot_of(StoredRun& run, Reporter& reporter) {
         if (asks_.moment.cycle) *asks_.moment.cycle += asks_.phase;
         const AskedMoment asked = find_moment(run, asks_.moment);
@@ -207,7 +200,7 @@ class Inspection {
                     fmt::format("{:.6g} s was not kept; this is the nearest kept moment", asked.time));
             const State& moment = run.moments()[asked.nearest];
             return {std::move(*kept),
-                    {moment.time, step_of(run, asked.nearest),
+                    {moment.time, run.written_step(asked.nearest),
                      fmt::format("{}kept as number {} of {}", asked.kept ? last : "", asked.nearest + 1,
                                  run.moments().size())}};
         }

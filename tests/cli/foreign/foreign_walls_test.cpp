@@ -71,9 +71,7 @@ TEST_F(ForeignWalls, QuestionsDrawAsTheFilmDoes) {
     const Ended ended = timed({"inspect", "bed.dump", "--frame", "1", "--where", "species == \"type 2\"",
                                "--size", "160x120", "--set", "film.camera.zoom=2", "--png", "asked.png"});
     ASSERT_EQ(ended.status, 0) << ended.err;
-    // The copy of the file that is drawn does not know whether its steps are those of the file, so none is
-    // told.
-    EXPECT_THAT(ended.out, HasSubstr("At 0.01 s"));
+    EXPECT_THAT(ended.out, HasSubstr("At 0.01 s (step 1000)"));
     EXPECT_TRUE(fs::exists(here / "asked.png"));
 }
 
