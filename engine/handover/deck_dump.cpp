@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -28,14 +27,6 @@ RawFormat text_format() {
     for (const RawFormat& format : raw_formats())
         if (std::string(format.name) == "lammps-dump") return format;
     throw std::logic_error("there is no reader of dumps");
-}
-
-std::vector<std::size_t> by_rising(const std::vector<double>& ids) {
-    std::vector<std::size_t> order(ids.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    if (!std::is_sorted(ids.begin(), ids.end()))
-        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
-    return order;
 }
 
 }  // namespace
@@ -123,7 +114,7 @@ State DeckDump::frame_of(const RawFrame& raw) const {
                          most = std::numeric_limits<std::int32_t>::max();
         return static_cast<std::int32_t>(std::clamp(value, least, most));
     };
-    for (const std::size_t row : by_rising(columns[0].values)) {
+    for (const std::size_t row : rows_by_id(columns[0].values)) {
         const auto vector = [&](std::size_t first) {
             return Vec3(columns[first].values[row], columns[first + 1].values[row],
                         columns[first + 2].values[row]);

@@ -187,7 +187,7 @@ TEST(Gsd, WhatIsLoggedForEachGrainIsAColumnOfEveryFrame) {
     EXPECT_TRUE(std::isnan(column(frame_of(gsd_format(), gsd.bytes(), 2).grains, "log/particles/heat")[0]));
 }
 
-// Of the schema's defaults, a diameter of 1 m, a mass of 1 kg and grains at rest are not believed.
+// The schema's defaults hold, but a diameter of 1 m, a mass of 1 kg and grains at rest are not believed.
 TEST(Gsd, WhereTheCountIsAnotherTheDefaultHolds) {
     EXPECT_THAT(counts(gsd_format(), bed().bytes()), ElementsAre(2, 2, 3));
     const RawFrame frame = frame_of(gsd_format(), bed().bytes(), 2);

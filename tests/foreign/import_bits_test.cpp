@@ -1,7 +1,7 @@
 // Tests that an import makes the same files, bit by bit, whether its frames are read once or twice. The
 // hashes were made by a program that read all frames for types, all for sizes, and then all once more. Later
-// the headers of trajectories told which of velocities and spins no file says, and the news told of unwrapped
-// places.
+// the headers of trajectories told which of velocities and spins no file says, the first id and whether the
+// steps are the file's, and the tilt of a box; the news told of unwrapped places.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <numeric>
 
 #include "engine/base/error.hpp"
 #include "engine/files/damage.hpp"
@@ -94,14 +93,6 @@ double or_unknown(double number, double limit) {
     return std::abs(number) <= limit ? number : kUnknown;
 }
 
-std::vector<std::size_t> by_rising(const std::vector<std::int32_t>& ids) {
-    std::vector<std::size_t> order(ids.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    if (!std::is_sorted(ids.begin(), ids.end()))
-        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
-    return order;
-}
-
 }  // namespace
 
 // The mass (kg) of the grain in a row; NaN where the file does not say a mass that a grain can have.
@@ -161,7 +152,7 @@ State GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
                                         place, row + 1, number, kMostId));
         ids[row] = static_cast<std::int32_t>(number);
     }
-    const std::vector<std::size_t> order = by_rising(ids);
+    const std::vector<std::size_t> order = rows_by_id(ids);
     State frame;
     std::vector<std::pair<double, std::size_t>> known;  // types so far, and their species
     for (std::size_t i = 0; i < order.size(); ++i) {

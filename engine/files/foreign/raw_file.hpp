@@ -3,10 +3,12 @@
 // RawFormat, and a line in the list of raw_file.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +37,16 @@ struct RawTable {
     // The first column with exactly this name; null where there is none.
     const RawColumn* find(const std::string& name) const;
 };
+
+// The rows of a table by rising id.
+template <typename Id>
+std::vector<std::size_t> rows_by_id(const std::vector<Id>& ids) {
+    std::vector<std::size_t> rows(ids.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    if (!std::is_sorted(ids.begin(), ids.end()))
+        std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+    return rows;
+}
 
 // A surface of walls in its place at that moment, in the file's unit of length.
 struct RawWall {

@@ -3,8 +3,9 @@
 // its meshes, and its meshes and faces. (Faces do not screen each other.) A mesh also stands between two
 // grains, and between a grain and a glued grain.
 //
-// Of two places at the same distance, that on the wall with the lower number counts. All depends on the grain
-// alone, so neither the threads nor the order of lists matter. Only what ScreenWatch lists is looked at.
+// If two places have the same distance, the place on the wall with the lower number counts. The choice
+// depends on the grain alone, so neither the threads nor the order of lists matter. Only what ScreenWatch
+// lists is looked at.
 //
 // Where a contact ends because another wall's place counts instead of its own, the new contact goes on with
 // its history, if both have the same law and the same parameters. Otherwise it begins as a new one.

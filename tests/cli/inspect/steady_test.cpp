@@ -153,8 +153,8 @@ TEST(IndependentValues, OfCorrelatedOnes) {
     EXPECT_GT(independent_values(line), 500);
 }
 
-// Of 200 stationary series each. Most intervals of long series are given, and hold the mean 0. Of short ones
-// next to none is given, whether they seem steady or seem to drift.
+// Each test asks about 200 stationary series whose mean is 0. Long series mostly get an interval, and it
+// holds the mean. Short series hardly ever get one, whether they seem steady or seem to drift.
 class SteadyOfCorrelatedRows : public testing::TestWithParam<int> {  // rows in a correlation time
   protected:
     struct Count {
