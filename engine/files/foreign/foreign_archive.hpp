@@ -81,6 +81,14 @@ class ForeignArchive final : public StateArchive {
     bool has_contacts_of(std::size_t) const override { return has_contacts_; }
     std::vector<std::string> news() const override { return news_; }
 
+    // Looks for moments that were written since. Returns whether there is anything new; then the walls may be
+    // others, and where steps and times depend on all moments, these too. Throws as RawSeries::grow() does.
+    bool grow();
+    // The number of moments to which nothing more can come. The last one may still be written.
+    std::size_t whole_moments() const {
+        return moments_.size() - (moments_.empty() || !grains_->moments().back().open ? 0 : 1);
+    }
+
     // Adds the types of a frame, and of those beside it that its velocities come from, to the species of the
     // world. Returns whether any is new; then species that follow it have other numbers than before.
     bool take_types(std::size_t index);
@@ -94,8 +102,8 @@ class ForeignArchive final : public StateArchive {
     // The numbers of a wall's triangles at a moment, a row for each triangle; null where there are none.
     const RawTable* wall_cells(std::size_t index, std::size_t wall) const;
     const UnitSystem& units() const { return meaning_->units(); }
-    // All files that were read.
-    const std::vector<std::filesystem::path>& files() const { return all_files_; }
+    // Whether there may be more to the walls with each moment.
+    bool walls_come() const;
     // The name of the format: "LAMMPS text dump".
     const std::string& format() const { return grains_->facts().format; }
     // Whether velocities are computed from the places of neighbouring moments.
@@ -105,14 +113,20 @@ class ForeignArchive final : public StateArchive {
     void choose_files();
     void choose_from(const std::vector<std::filesystem::path>& files);
     void add_companions(const std::filesystem::path& file);
+    std::vector<std::filesystem::path> contact_files() const;
+    void find_walls();
+    std::vector<std::filesystem::path> files_now(const std::vector<std::filesystem::path>& known) const;
+    bool in_frames() const;
     void list_moments();
     void survey();
     std::vector<std::size_t> looks() const;
     bool look_at(std::size_t index);
+    void count_grains();
     void survey_contacts();
     void check_contact_columns();
     void make_world();
     void make_species();
+    void name_walls();
     void read_walls();
     void add_box();
     void match_walls();
@@ -127,7 +141,6 @@ class ForeignArchive final : public StateArchive {
     // The second is null where the grains' files have the contacts, or there are none.
     std::unique_ptr<RawSeries> grains_, contacts_;
     std::vector<std::vector<std::filesystem::path>> wall_files_;
-    std::vector<std::filesystem::path> all_files_;
     std::optional<GrainMeaning> meaning_;
     TypeList types_;
     StoredWorld world_;
@@ -138,6 +151,7 @@ class ForeignArchive final : public StateArchive {
     std::vector<WallMoment> wall_moments_;
     std::vector<std::vector<std::size_t>> wall_at_;  // for each moment and wall: the number of its pose
     bool has_contacts_ = false, derived_ = false;
+    bool behind_ = false;  // whether the files have grown and this object has not
     std::size_t first_with_grains_ = 0;
     std::vector<std::string> news_;
     // The frames that were read last, with their numbers: one, or three in a row where velocities come from

@@ -107,18 +107,34 @@ void ForeignArchive::choose_files() {
         }
         add_companions(path_);
     }
-    if (!options_.contacts.empty()) {
-        std::vector<fs::path> files;
-        for (const std::string& name : options_.contacts)
-            for (fs::path& file : files_named(name)) files.push_back(std::move(file));
-        contacts_ =
-            std::make_unique<RawSeries>(grouped(files).size() == 1 ? grouped(files).front().files : files);
-    }
+    if (!options_.contacts.empty()) contacts_ = std::make_unique<RawSeries>(contact_files());
+    if (!options_.walls.empty()) find_walls();
+}
+
+// The files of the contacts that the user names.
+std::vector<fs::path> ForeignArchive::contact_files() const {
+    std::vector<fs::path> files;
+    for (const std::string& name : options_.contacts)
+        for (fs::path& file : files_named(name)) files.push_back(std::move(file));
+    return grouped(files).size() == 1 ? grouped(files).front().files : files;
+}
+
+// Finds the files of the walls that the user names.
+void ForeignArchive::find_walls() {
+    wall_files_.clear();
     for (const std::string& name : options_.walls)
         for (FileGroup& group : grouped(files_named(name))) wall_files_.push_back(std::move(group.files));
-    all_files_ = grains_->files();
-    if (contacts_) all_files_.insert(all_files_.end(), contacts_->files().begin(), contacts_->files().end());
-    for (const auto& files : wall_files_) all_files_.insert(all_files_.end(), files.begin(), files.end());
+}
+
+// The files that a series has by now: all of its group that lie where the path says.
+std::vector<fs::path> ForeignArchive::files_now(const std::vector<fs::path>& known) const {
+    std::error_code ignored;
+    const bool many = is_pattern(path_) || fs::is_directory(path_, ignored);
+    if (options_.one && !many) return known;
+    for (FileGroup& group : many ? grouped(files_named(path_.string())) : std::vector{series_of(path_)})
+        if (std::find(group.files.begin(), group.files.end(), known.front()) != group.files.end())
+            return std::move(group.files);
+    return known;
 }
 
 // If a folder has several series of grains, the longest is taken, because a run is often written in two

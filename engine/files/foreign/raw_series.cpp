@@ -4,10 +4,12 @@
 #include <glob.h>
 #include <algorithm>
 #include <cctype>
+#include <exception>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 
@@ -54,32 +56,97 @@ RawSeries::RawSeries(std::vector<fs::path> files) : files_(std::move(files)) {
     format_ = raw_format_of(files_.front());
     if (format_ == nullptr)
         throw UserError(fmt::format("{}: is in no format that is read", files_.front().string()));
+    for (const fs::path& file : files_) {
+        looked_.push_back(look(file));
+        if (looked_.size() == 1) facts_ = open_->facts();
+        for (std::string& line : open_->news()) news_.push_back(std::move(line));
+    }
     list_moments();
+    tell_of_equal_files();
 }
 
-RawFile& RawSeries::opened(std::size_t file) const {
+bool RawSeries::grow(std::vector<fs::path> files) {
+    std::map<fs::path, const Looked*> known;
+    for (std::size_t file = 0; file < files_.size(); ++file) known.emplace(files_[file], &looked_[file]);
+    std::vector<fs::path> whole_files;
+    std::vector<Looked> looked;
+    std::exception_ptr not_yet;  // why a new file cannot be read; those behind it wait too
+    bool changed = false;
+    for (fs::path& file : files) {
+        const auto before = known.find(file);
+        const bool is_known = before != known.end();
+        if (not_yet && !is_known) continue;
+        const bool kept_open = open_ && open_file_ == file && open_->grows();
+        try {
+            const bool same = is_known && !kept_open && FileBytes(file).state() == before->second->state;
+            looked.push_back(same ? *before->second : look(file));
+        } catch (const UserError&) {
+            if (is_known) throw;
+            not_yet = std::current_exception();
+            continue;
+        }
+        changed = changed || !is_known || looked.back().moments != before->second->moments;
+        whole_files.push_back(std::move(file));
+    }
+    changed = changed || whole_files.size() < files_.size();
+    if (not_yet && !changed) std::rethrow_exception(not_yet);
+    files_ = std::move(whole_files);
+    looked_ = std::move(looked);
+    if (!changed) return false;
+    const std::vector<RawMoment> before = std::exchange(moments_, {});
+    const std::vector<std::string> news = news_;
+    parts_.clear();
+    list_moments();
+    news_ = news;  // what was told once is not told again
+    const auto whole = before.end() - (before.back().open ? 1 : 0);
+    const auto same = [](const RawMoment& one, const RawMoment& now) {
+        return (!one.step || !now.step || one.step == now.step) &&
+               (!one.time || !now.time || one.time == now.time);
+    };
+    if (std::mismatch(before.begin(), whole, moments_.begin(), moments_.end(), same).first != whole)
+        throw RunError(fmt::format(
+            "{}: has {}, and the first of them are not the {} that were read before; it was truncated or "
+            "replaced",
+            files_.front().string(), counted(moments_.size(), "frame"), whole - before.begin()));
+    return true;
+}
+
+RawFile& RawSeries::opened(const fs::path& file) const {
     if (open_ && open_file_ == file) return *open_;
-    const fs::path& path = files_[file];
-    const RawFormat* format = file == 0 ? format_ : raw_format_of(path);
+    const RawFormat* format = file == files_.front() ? format_ : raw_format_of(file);
     if (format == nullptr || std::string(format->name) != format_->name)
         throw UserError(fmt::format("{}: is {}, but {} is {}; files of one run have one format",
-                                    path.string(), format ? format->about : "in no format that is read",
+                                    file.string(), format ? format->about : "in no format that is read",
                                     files_.front().string(), format_->about));
     open_.reset();
-    open_ = format->open(path);
+    open_ = format->open(file);
     open_file_ = file;
     return *open_;
+}
+
+RawSeries::Looked RawSeries::look(const fs::path& file) const {
+    // The state comes first, so that the next look sees what is written meanwhile.
+    const FileState state = FileBytes(file).state();
+    if (open_ && open_file_ == file) {
+        try {
+            if (open_->grows())
+                open_->grow();
+            else
+                open_.reset();
+        } catch (const UserError&) {
+            open_.reset();  // another file is there now, perhaps a longer copy
+        }
+    }
+    return {state, opened(file).moments()};
 }
 
 void RawSeries::list_moments() {
     std::vector<std::pair<RawMoment, Part>> all;
     for (std::size_t file = 0; file < files_.size(); ++file) {
-        RawFile& one = opened(file);
-        if (file == 0) facts_ = one.facts();
-        for (std::string& line : one.news()) news_.push_back(std::move(line));
-        const std::vector<RawMoment>& moments = one.moments();
+        const std::vector<RawMoment>& moments = looked_[file].moments;
         for (std::size_t frame = 0; frame < moments.size(); ++frame) {
             RawMoment moment = moments[frame];
+            moment.open = moment.open && file + 1 == files_.size();
             // For a file with one frame and no step, the number in its name is the step.
             if (!moment.step && moments.size() == 1 && files_.size() > 1)
                 moment.step = number_in_name(files_[file]);
@@ -97,7 +164,6 @@ void RawSeries::list_moments() {
         std::stable_sort(all.begin(), all.end(),
                          [](const auto& a, const auto& b) { return *a.first.time < *b.first.time; });
     join_equal_steps(all);
-    tell_of_equal_files();
 }
 
 void RawSeries::join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all) {
@@ -126,6 +192,7 @@ void RawSeries::join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all) {
             parts.push_back(part);
         }
         moments_.back().grains = std::max(moments_.back().grains, moment.grains);
+        moments_.back().open = moments_.back().open || moment.open;
         moments_.back().has_walls = moments_.back().has_walls || moment.has_walls;
         moments_.back().has_contacts = moments_.back().has_contacts || moment.has_contacts;
     }
@@ -143,8 +210,8 @@ void RawSeries::tell_of_equal_files() {
     if (found == parts_.end()) return;
     const Part one = found->front(), other = found->back();
     try {
-        const RawTable before = opened(one.file).read(one.frame).grains;
-        const RawTable after = opened(other.file).read(other.frame).grains;
+        const RawTable before = opened(files_[one.file]).read(one.frame).grains;
+        const RawTable after = opened(files_[other.file]).read(other.frame).grains;
         if (before.rows == 0 || after.rows == 0 || !share_ids(before, after)) return;
     } catch (const UserError&) {
         return;  // whoever reads the frame is told what is wrong
@@ -159,7 +226,7 @@ RawFrame RawSeries::read(std::size_t index) const {
     RawFrame frame;
     bool first = true;
     for (const Part& part : parts_.at(index)) {
-        RawFrame more = opened(part.file).read(part.frame);
+        RawFrame more = opened(files_[part.file]).read(part.frame);
         if (first) {
             frame = std::move(more);
             first = false;

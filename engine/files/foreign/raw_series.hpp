@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/foreign/byte_source.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/state_archive.hpp"
 
@@ -21,9 +22,15 @@ class RawSeries {
     // All files must have the same format. Throws UserError where one cannot be read.
     explicit RawSeries(std::vector<std::filesystem::path> files);
 
+    // Looks for moments that were written since. files: those of the series by now. Returns whether moments()
+    // is another list than before. Throws UserError where a file cannot be read as it is, because it may be
+    // half written, and RunError where the first moments are not those of before.
+    bool grow(std::vector<std::filesystem::path> files);
+
     const RawFacts& facts() const { return facts_; }
     const std::vector<std::filesystem::path>& files() const { return files_; }
-    // The moments by rising step, or else by time, or else in the order of the files.
+    // The moments by rising step, or else by time, or else in the order of the files. Only the last one may
+    // be open.
     const std::vector<RawMoment>& moments() const { return moments_; }
     // A frame with the rows of all files that have this moment. Throws as RawFile::read does.
     RawFrame read(std::size_t index) const;
@@ -35,20 +42,27 @@ class RawSeries {
     struct Part {
         std::size_t file, frame;
     };
+    // A file as it was when it was looked at.
+    struct Looked {
+        FileState state;
+        std::vector<RawMoment> moments;
+    };
     // Opens a file, unless it is the one that was opened last.
-    RawFile& opened(std::size_t file) const;
+    RawFile& opened(const std::filesystem::path& file) const;
+    Looked look(const std::filesystem::path& file) const;
     void list_moments();
     void join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all);
     void tell_of_equal_files();
 
     std::vector<std::filesystem::path> files_;
+    std::vector<Looked> looked_;  // one for each file
     const RawFormat* format_ = nullptr;
     RawFacts facts_;
     std::vector<RawMoment> moments_;
     std::vector<std::vector<Part>> parts_;  // for each moment: the frames that it is made of
     std::vector<std::string> news_;
     // Only one file is kept open, because there may be thousands.
-    mutable std::size_t open_file_ = 0;
+    mutable std::filesystem::path open_file_;
     mutable std::unique_ptr<RawFile> open_;
 };
 

@@ -176,16 +176,40 @@ Imported found(const fs::path& folder) {
     return run;
 }
 
-}  // namespace
-
-Imported cached_import(ImportRequest request) {
-    const fs::path imports = import_folder();
-    std::string name = request.from.filename().string();
+// The name of the run that is made of these files.
+std::string run_name_of(const fs::path& from) {
+    std::string name = from.filename().string();
     if (name.empty() || name == "." || name == "..")
-        name = fs::absolute(request.from).lexically_normal().parent_path().filename().string();
+        name = fs::absolute(from).lexically_normal().parent_path().filename().string();
     for (char& c : name)
         if (std::string("*?[]").find(c) != std::string::npos) c = '_';
-    const fs::path place = imports / key_of(request);
+    return name;
+}
+
+}  // namespace
+
+UnfinishedImport::UnfinishedImport(const ImportRequest& request) {
+    const fs::path part = import_folder() / fmt::format("{}.{}{}", key_of(request), ::getpid(), kUnfinished);
+    std::error_code ignored;
+    fs::remove_all(part, ignored);
+    if (const std::string fault = make_own_folder(part); !fault.empty())
+        throw RunError(fmt::format("{}: cannot be made: {}", part.string(), fault));
+    folder_ = part / run_name_of(request.from);
+}
+
+UnfinishedImport::~UnfinishedImport() {
+    std::error_code ignored;
+    fs::remove_all(folder_.parent_path(), ignored);
+}
+
+void UnfinishedImport::touch() const {
+    std::error_code ignored;
+    fs::last_write_time(folder_.parent_path(), fs::file_time_type::clock::now(), ignored);
+}
+
+Imported cached_import(ImportRequest request) {
+    const fs::path imports = import_folder(), place = imports / key_of(request);
+    const std::string name = run_name_of(request.from);
     std::error_code error;
     const auto is_there = [&] {
         std::error_code ignored;
@@ -193,38 +217,19 @@ Imported cached_import(ImportRequest request) {
                fs::exists(place / name / kImportNews, ignored);
     };
     if (is_there()) return found(place / name);
-    // Each process makes the import in a folder of its own, which it then renames to `place`. The first one
-    // to finish keeps the name.
-    const fs::path part =
-        imports / fmt::format("{}.{}{}", place.filename().string(), ::getpid(), kUnfinished);
-    fs::remove_all(part, error);
-    if (const std::string fault = make_own_folder(part); !fault.empty())
-        throw RunError(fmt::format("{}: cannot be made: {}", part.string(), fault));
-    request.folder = part / name;
-    try {
-        const Imported made = import_run(request);
-        std::ofstream news(request.folder / kImportNews);
-        for (const std::string& line : made.news) news << line << "\n";
-        news.close();
-        if (!news)
-            throw RunError(
-                fmt::format("{}: cannot be written; is the disk full?", (part / kImportNews).string()));
-        if (!is_there()) {  // else another process has finished it, and its reader may be at it
-            fs::remove_all(place, error);
-            fs::rename(part, place, error);
-        }
-        if (error && !fs::exists(place / name / "scene.toml"))
-            throw RunError(fmt::format("{}: cannot be made: {}", place.string(), error.message()));
-        fs::remove_all(part, error);
-        make_room(imports, place);
-        Imported run = made;
-        run.folder = place / name;
-        return run;
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove_all(part, ignored);
-        throw;
+    // The first process to finish keeps the name.
+    const UnfinishedImport part(request);
+    request.folder = part.folder();
+    Imported run = import_run(request);
+    if (!is_there()) {  // else another process has finished it, and its reader may be at it
+        fs::remove_all(place, error);
+        fs::rename(part.folder().parent_path(), place, error);
     }
+    if (error && !fs::exists(place / name / "scene.toml"))
+        throw RunError(fmt::format("{}: cannot be made: {}", place.string(), error.message()));
+    make_room(imports, place);
+    run.folder = place / name;
+    return run;
 }
 
 ImportsKept imports_kept() {

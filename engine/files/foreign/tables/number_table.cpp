@@ -205,6 +205,7 @@ void NumberTable::find_frames() {
         moments_.push_back(frame.moment);
         runs_.push_back(std::move(frame.runs));
     }
+    moments_.back().open = true;  // no table says how many rows a moment has
 }
 
 void NumberTable::name_nameless() {
