@@ -62,6 +62,9 @@ peers_packages="
 lammps               LAMMPS, for ./test --peers
 liggghts             LIGGGHTS
 openmpi-bin          mpirun
+python3-ase          ASE for Python, which reads exports in a test
+python3-gsd          gsd for Python, likewise
+python3-mdanalysis   MDAnalysis for Python, likewise
 "
 
 archive_words="docs/guide/install.md: machines without root"

@@ -1,6 +1,7 @@
 #include "engine/base/own_folder.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 
@@ -9,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/program.hpp"
 
@@ -87,6 +89,24 @@ bool was_own_folder(const fs::path& path) {
 bool is_own(const fs::path& path) {
     struct stat about {};
     return ::lstat(path.c_str(), &about) == 0 && about.st_uid == ::geteuid() && !S_ISLNK(about.st_mode);
+}
+
+ScratchFolder::ScratchFolder(const std::string& purpose) {
+    std::error_code error;
+    const fs::path temporary = fs::temp_directory_path(error);
+    std::string name = (temporary / ("grainreel-" + purpose + "-XXXXXX")).string();
+    if (!error && ::mkdtemp(name.data()) == nullptr) error.assign(errno, std::generic_category());
+    if (error)
+        throw RunError(
+            fmt::format("{}: no folder for temporary files can be made: {}; set TMPDIR to a folder "
+                        "of yours",
+                        temporary.empty() ? "TMPDIR" : temporary.string(), error.message()));
+    path_ = name;
+}
+
+ScratchFolder::~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
 }
 
 }  // namespace grainreel

@@ -33,4 +33,20 @@ bool was_own_folder(const std::filesystem::path& path);
 // Whether a path names a file or a folder itself, not a link to one, and the effective user owns it.
 bool is_own(const std::filesystem::path& path);
 
+// A folder in the temporary folder that only the present user may enter, with a name that nobody can guess.
+// It is removed at the end with all that is in it.
+class ScratchFolder {
+  public:
+    // purpose: a word of its name. Throws RunError where there is no temporary folder that can be written.
+    explicit ScratchFolder(const std::string& purpose);
+    ~ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
 }  // namespace grainreel

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -21,12 +23,24 @@ struct Row {
     std::int32_t frame, first, second;
     float normal;
     std::array<float, 3> tangential, point;
-    std::int32_t triangle = -1;  // comes last, and only in files of scenes with meshes
+    std::int32_t triangle = -1;             // only in files of scenes with meshes
+    std::array<float, 3> rolling{0, 0, 0};  // only in files of scenes whose contacts resist rolling
 };
-static_assert(sizeof(Row) == 11 * sizeof(float));  // no gaps in a row; the checksum is over all of its bytes
+static_assert(sizeof(Row) == 14 * sizeof(float));  // no gaps in a row
 
-int checksum_of(const Row& row, bool meshes) {
-    return static_cast<int>(XXH32(&row, meshes ? sizeof row : sizeof row - sizeof row.triangle, 0));
+// The checksum is over the bytes of all numbers that the file has.
+int checksum_of(const Row& row, bool meshes, bool rolls) {
+    std::array<char, sizeof(Row)> bytes;
+    constexpr std::size_t kAlways = offsetof(Row, triangle);
+    std::memcpy(bytes.data(), &row, kAlways);
+    std::size_t size = kAlways;
+    const auto append = [&](const auto& numbers) {
+        std::memcpy(bytes.data() + size, &numbers, sizeof numbers);
+        size += sizeof numbers;
+    };
+    if (meshes) append(row.triangle);
+    if (rolls) append(row.rolling);
+    return static_cast<int>(XXH32(bytes.data(), size, 0));
 }
 
 constexpr std::int32_t most_faces = 1000;  // no scene has so many faces and meshes
@@ -61,15 +75,17 @@ struct ContactsWriter::Impl {
 
     NetcdfFile file;
     std::size_t rows = 0;
-    bool meshes = false;
+    bool meshes = false, rolls = false;
     int frame = -1, first = -1, second = -1, normal = -1, tangential = -1, point = -1, triangle = -1,
-        checksum = -1;
+        rolling = -1, checksum = -1;
 };
 
 ContactsWriter::ContactsWriter(const std::filesystem::path& path, const std::string& title,
-                               const std::string& program_version, const FileFacts& facts, bool meshes)
+                               const std::string& program_version, const FileFacts& facts, bool meshes,
+                               bool rolls)
     : impl_(std::make_unique<Impl>(NetcdfFile::create(path, NetcdfFormat::cdf2))) {
     impl_->meshes = meshes;
+    impl_->rolls = rolls;
     NetcdfFile& file = impl_->file;
     file.attribute(NC_GLOBAL, "title", title);
     file.attribute(NC_GLOBAL, "program", "grainreel");
@@ -98,6 +114,10 @@ ContactsWriter::ContactsWriter(const std::filesystem::path& path, const std::str
     if (meshes)
         impl_->triangle = define("triangle", NC_INT, "1", "triangle of the mesh that is pushed",
                                  "from 0, as in trajectory.nc; -1 of what is no mesh");
+    if (rolls)
+        impl_->rolling =
+            define("rolling", NC_FLOAT, "N m", "torque of the resistance to rolling on the second one",
+                   "x, y, z; the first one gets the opposite", true);
     impl_->checksum = define("checksum", NC_INT, "1", "XXH32 of the row's other numbers", "for grainreel");
     file.end_definitions();
     file.sync(0);
@@ -117,6 +137,8 @@ ContactsWriter::ContactsWriter(const std::filesystem::path& path, std::size_t fr
     for (const auto& [variable, name] : variables) *variable = impl_->file.find_variable(name);
     impl_->meshes = impl_->file.has_variable("triangle");
     if (impl_->meshes) impl_->triangle = impl_->file.find_variable("triangle");
+    impl_->rolls = impl_->file.has_variable("rolling");
+    if (impl_->rolls) impl_->rolling = impl_->file.find_variable("rolling");
 }
 
 ContactsWriter::~ContactsWriter() = default;
@@ -137,7 +159,7 @@ void ContactsWriter::write(std::int64_t frame, const std::vector<SavedContact>& 
     std::vector<Row> rows;
     for (const SavedContact& c : contacts)
         rows.push_back({static_cast<std::int32_t>(frame), c.first, c.second, static_cast<float>(c.normal),
-                        floats(c.tangential), floats(c.point), c.triangle});
+                        floats(c.tangential), floats(c.point), c.triangle, floats(c.rolling)});
     using Int = std::array<int, 1>;
     Impl& to = *impl_;
     to.put_column<int, 1>(to.frame, rows, [](const Row& r) { return Int{r.frame}; });
@@ -147,7 +169,9 @@ void ContactsWriter::write(std::int64_t frame, const std::vector<SavedContact>& 
     to.put_column<float, 3>(to.tangential, rows, [](const Row& r) { return r.tangential; });
     to.put_column<float, 3>(to.point, rows, [](const Row& r) { return r.point; });
     if (to.meshes) to.put_column<int, 1>(to.triangle, rows, [](const Row& r) { return Int{r.triangle}; });
-    to.put_column<int, 1>(to.checksum, rows, [&](const Row& r) { return Int{checksum_of(r, to.meshes)}; });
+    if (to.rolls) to.put_column<float, 3>(to.rolling, rows, [](const Row& r) { return r.rolling; });
+    to.put_column<int, 1>(to.checksum, rows,
+                          [&](const Row& r) { return Int{checksum_of(r, to.meshes, to.rolls)}; });
     to.rows += rows.size();
     to.file.sync(to.rows);
 }
@@ -156,6 +180,7 @@ struct ContactsReader::Impl {
     explicit Impl(const std::filesystem::path& path) : source(path.string()), file(NetcdfFile::open(path)) {
         checksums = file.has_variable("checksum");
         meshes = file.has_variable("triangle");
+        rolls = file.has_variable("rolling");
         const std::size_t counted = file.length("row"), on_disk = file.records_on_disk(counted);
         const std::size_t rows = std::min(counted, on_disk);
         cut_off = rows < counted;
@@ -195,10 +220,11 @@ struct ContactsReader::Impl {
         get_column<float, 3>("point", begin, rows, [](Row& r, const auto& v) { r.point = v; });
         if (meshes)
             get_column<int, 1>("triangle", begin, rows, [](Row& r, const auto& v) { r.triangle = v[0]; });
+        if (rolls) get_column<float, 3>("rolling", begin, rows, [](Row& r, const auto& v) { r.rolling = v; });
         std::vector<int> sums(count);
         if (checksums) file.get(file.find_variable("checksum"), {begin}, {count}, sums.data());
         for (std::size_t i = 0; i < count; ++i) {
-            if (checksums && sums[i] != checksum_of(rows[i], meshes))
+            if (checksums && sums[i] != checksum_of(rows[i], meshes, rolls))
                 damaged(begin + i, "its checksum is not that of its numbers");
             if (!possible(rows[i])) damaged(begin + i, "it holds what no contact can have");
         }
@@ -210,7 +236,7 @@ struct ContactsReader::Impl {
 
     std::string source;  // for messages
     NetcdfFile file;
-    bool checksums = false, meshes = false;
+    bool checksums = false, meshes = false, rolls = false;
     std::vector<int> frame_of;  // number of the frame of each row, rising
     bool cut_off = false;
     std::size_t uncounted = 0;
@@ -266,8 +292,8 @@ std::vector<SavedContact> ContactsReader::contacts(std::size_t frame) const {
     if (!has_all(frame)) return contacts;
     const auto vector = [](const std::array<float, 3>& v) { return Vec3(v[0], v[1], v[2]); };
     for (const Row& row : impl_->rows_of(frame))
-        contacts.push_back(
-            {row.first, row.second, row.normal, vector(row.tangential), vector(row.point), row.triangle});
+        contacts.push_back({row.first, row.second, row.normal, vector(row.tangential), vector(row.point),
+                            row.triangle, vector(row.rolling)});
     return contacts;
 }
 

@@ -6,7 +6,8 @@
 // (ids of grains; a wall is -1 minus its number), normal (N), tangential (N, on `second`), point (m) and
 // checksum (XXH32 of the row's other numbers as they stand in memory, in this order). Forces and points are
 // floats. In a scene with meshes `triangle` follows the point: the number of the triangle that is touched,
-// counted from 0 as in trajectory.nc, or -1. A grain that touches several parts of a mesh has a row for each.
+// counted from 0 as in trajectory.nc, or -1. Where contacts resist rolling, `rolling` follows: the torque on
+// `second` (N m, floats). A grain that touches several parts of a mesh has a row for each.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +25,8 @@ class ContactsWriter {
   public:
     // Throws RunError when the file cannot be written.
     ContactsWriter(const std::filesystem::path& path, const std::string& title,
-                   const std::string& program_version, const FileFacts& facts = {}, bool meshes = false);
+                   const std::string& program_version, const FileFacts& facts = {}, bool meshes = false,
+                   bool rolls = false);
     // Continues a file. The contacts of the trajectory's first `frames` frames stay, and later rows are cut
     // off. Throws UserError where the file is damaged.
     ContactsWriter(const std::filesystem::path& path, std::size_t frames);

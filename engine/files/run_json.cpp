@@ -42,6 +42,16 @@ Json program(const RunJson& r) {
             {"compiler", r.compiler}, {"flags", r.build_flags}, {"libraries", table(r.libraries)}};
 }
 
+Json deepest(const DeepestContact& contact) {
+    return {{"share", contact.share},
+            {"time_s", contact.time},
+            {"step", contact.step},
+            {"grain", contact.grain},
+            {"species", contact.species},
+            {"other", contact.other},
+            {"remedy", text_or_null(contact.remedy)}};
+}
+
 Json engine(const RunJson& r) {
     return {{"seed", r.seed},
             {"grains", r.grains},
@@ -51,6 +61,7 @@ Json engine(const RunJson& r) {
             {"simulated_s", r.simulated},
             {"vector", r.vector},
             {"particle_steps_per_second", r.particle_steps_per_second},
+            {"largest_overlap", r.deepest ? deepest(*r.deepest) : Json(nullptr)},
             {"state_hash", r.state_hash ? Json(fmt::format("{:016x}", *r.state_hash)) : Json(nullptr)}};
 }
 
@@ -287,7 +298,20 @@ bool take(const Json& from, const char* key, Value& to) {
     return take(member(from, key), to);
 }
 
+void take_deepest(const Json& from, std::optional<DeepestContact>& to) {
+    DeepestContact contact;
+    if (!take(from, "share", contact.share)) return;
+    take(from, "time_s", contact.time);
+    take(from, "step", contact.step);
+    take(from, "grain", contact.grain);
+    take(from, "species", contact.species);
+    take(from, "other", contact.other);
+    take(from, "remedy", contact.remedy);
+    to = contact;
+}
+
 void take_engine(const Json& from, RunJson& r) {
+    take_deepest(member(from, "largest_overlap"), r.deepest);
     take(from, "seed", r.seed);
     take(from, "grains", r.grains);
     take(from, "step_s", r.step);

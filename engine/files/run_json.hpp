@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/grain_table.hpp"
+#include "engine/measure/deepest_contact.hpp"
 #include "engine/scene/keys/keys.hpp"
 
 namespace grainreel {
@@ -86,7 +87,8 @@ struct RunJson : ProgramInfo {
     std::string page;                      // file name of the run's page; empty without one
     std::int64_t peak_memory = 0;          // bytes
     std::vector<std::string> warnings;
-    std::vector<std::string> missing;  // files that are still to be made after the run's end
+    std::optional<DeepestContact> deepest;  // none where nothing touched, or the run has not ended
+    std::vector<std::string> missing;       // files that are still to be made after the run's end
 };
 
 inline constexpr const char* kPageIsMissing = "page";

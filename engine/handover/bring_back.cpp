@@ -6,12 +6,15 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/handover/deck_dump.hpp"
+#include "engine/handover/decks.hpp"
 #include "engine/handover/grain_count.hpp"
+#include "engine/handover/handed_grains.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/handover/peer_process.hpp"
 #include "engine/handover/returned_health.hpp"
@@ -116,8 +119,8 @@ BroughtBack bring_back(const fs::path& folder, const std::string& version,
     std::error_code missing;
     if (!fs::is_regular_file(facts.dump, missing))
         fail_without_moment(folder, facts, "is not there",
-                            fmt::format(", so {} has not run yet; run it: sh {}/run.sh",
-                                        name_of(facts.engine), folder.string()));
+                            fmt::format(", so {} has not run yet; run it: sh {}", name_of(facts.engine),
+                                        shell_word((folder / "run.sh").string())));
     BroughtBack back;
     if (is_newer(folder / "trajectory.nc", facts.dump)) {
         back.news = news_of_former(folder, facts);
@@ -247,7 +250,13 @@ bool ReturnedRun::take_next() {
     if (!there) return false;
     // A run that continued from the engine's restart file writes its first moment once more.
     if (m.last && there->step - m.facts.shift <= m.last->step) return true;
+    if (!m.last) {
+        const Container& container = m.scene.container;
+        const HandedGrains handed(m.facts.dump.parent_path() / data_name, m.facts.dump.string());
+        handed.check_first(*there, container.periodic_depth ? container.depth : 0);
+    }
     State frame = m.ours(std::move(*there));
+    if (m.last) check_unchanged(*m.last, frame, m.facts.dump.string());
     const GrainCount::Change change = m.count.compare(m.last ? &*m.last : nullptr, frame);
     const double overlap = m.health.look(frame);
     m.note_outflow(change.left, frame.step);

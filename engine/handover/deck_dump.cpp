@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
@@ -75,11 +76,26 @@ std::optional<State> DeckDump::next() {
         return dump_ && next_ < dump_->moments().size() && !dump_->moments()[next_].open;
     };
     if (!is_known() && (!look() || !is_known())) return std::nullopt;
+    while (is_given_up(next_)) ++next_;
+    if (!is_known()) return std::nullopt;
     const RawFrame raw = dump_->read(next_);
-    if (next_ == 0) check_columns(raw.grains);
+    if (!std::exchange(checked_, true)) check_columns(raw.grains);
     State frame = frame_of(raw);
     ++next_;
     return frame;
+}
+
+// Whether the run went on from a moment before this one and wrote this or later steps again further on.
+bool DeckDump::is_given_up(std::size_t frame) const {
+    const std::vector<RawMoment>& moments = dump_->moments();
+    if (least_after_.size() != moments.size()) {
+        least_after_.assign(moments.size(), std::numeric_limits<std::int64_t>::max());
+        for (std::size_t k = moments.size(); k-- > 1;)
+            least_after_[k - 1] = moments[k].open
+                                      ? least_after_[k]
+                                      : std::min(least_after_[k], moments[k].step.value_or(least_after_[k]));
+    }
+    return frame < moments.size() && least_after_[frame] <= moments[frame].step.value_or(0);
 }
 
 void DeckDump::check_columns(const RawTable& table) const {

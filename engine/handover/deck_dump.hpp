@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/state/state.hpp"
@@ -27,13 +28,16 @@ class DeckDump {
 
   private:
     bool look();
+    bool is_given_up(std::size_t frame) const;
     void check_columns(const RawTable& table) const;
     State frame_of(const RawFrame& raw) const;
 
     std::filesystem::path file_;
-    std::unique_ptr<RawFile> dump_;  // null before there is a whole frame
-    std::uintmax_t size_ = 0;        // of the file when it was looked at last
-    std::size_t next_ = 0;           // number of the frame that next() gives
+    std::unique_ptr<RawFile> dump_;                  // null before there is a whole frame
+    std::uintmax_t size_ = 0;                        // of the file when it was looked at last
+    std::size_t next_ = 0;                           // number of the frame that next() gives
+    bool checked_ = false;                           // whether its columns are those of the deck
+    mutable std::vector<std::int64_t> least_after_;  // for each frame: the smallest step of those after it
 };
 
 // Cuts off a frame that is not whole, and the frames after a step of the engine, which will be written again.

@@ -229,8 +229,8 @@ if [ "$(id -u)" = 0 ]; then  # Open MPI refuses root otherwise
 fi
 {error}# The first line of {status} is "running" or an exit status, the second names the job.
 note() {{ printf '%s\njob %s\n' "$1" "$name" > {status}.part && mv -f {status}.part {status}; }}
-rm -f {status} log.{key}  # of a job before
-{restart}name="$(uname -n) $$ $(date +%s) $way"
+{restart}rm -f {status}  # of a job before
+name="$(uname -n) $$ $(date +%s) $way"
 note running
 mpirun -np "$ranks" "$engine" -in {deck} -log log.{key} "$@" > out.{key} 2>&1 < /dev/null &
 job=$!
@@ -246,7 +246,7 @@ while kill -0 "$job" 2> /dev/null; do  # a signal ended the wait
 done
 [ "$signal" = 0 ] || [ "$status" = 0 ] || status=$((128 + signal))
 {forced}note "$status"  # so that whoever follows the dump knows
-[ "$signal" = 0 ] || {{ echo "run.sh: a signal ended the job; go on with: sh $0 --continue" >&2; exit "$status"; }}
+[ "$signal" = 0 ] || {{ echo "run.sh: a signal ended the job; go on with: sh \"$0\" --continue" >&2; exit "$status"; }}
 [ "$status" = 0 ] && exit 0
 error=$(error_of {deck} log.{key} out.{key})
 [ -n "$error" ] || tail -n 5 out.{key} >&2
@@ -263,7 +263,13 @@ esac
 
 constexpr const char* restart_text = R"sh(if [ "$1" = --continue ]; then
     step=$(ls {restart}.* 2>/dev/null | sed 's/.*\.//' | sort -n | tail -n 1)
-    [ -n "$step" ] || {{ echo "run.sh: there is no restart file to go on from; begin anew with: sh $0" >&2; exit 2; }}
+    [ -n "$step" ] || {{ echo "run.sh: there is no restart file to go on from; begin anew with: sh \"$0\"" >&2; exit 2; }}
+    # Log and output of the job before may tell why it ended; they are kept as log.{key}.1, log.{key}.2 ...
+    for file in log.{key} out.{key}; do
+        number=1
+        while [ -e "$file.$number" ]; do number=$((number + 1)); done
+        [ ! -e "$file" ] || mv "$file" "$file.$number"
+    done
     # What the dump has of later steps comes again; its last frame may have been cut off.
     size=$(LC_ALL=C awk -v last="$step" -v size="$(wc -c < {dump})" '
         {{ bytes += length($0) + 1 }}
@@ -278,7 +284,7 @@ constexpr const char* restart_text = R"sh(if [ "$1" = --continue ]; then
     set -- -var goes_on 1 -var restart {restart}."$step"
     way=continue
 else
-    rm -f {restart}.* {end} {dump}  # of a run before
+    rm -f {restart}.* {end} {dump} log.{key} log.{key}.* out.{key} out.{key}.*  # of a run before
     set --
     way=start
 fi
@@ -317,7 +323,8 @@ std::string run_script(const CarriedScene& carried) {
     const bool lammps = carried.engine == PeerEngine::lammps;
     const std::string restart =
         fmt::format(restart_text, fmt::arg("restart", restart_name(carried.engine)),
-                    fmt::arg("dump", dump_name(carried.engine)), fmt::arg("end", end_name));
+                    fmt::arg("key", key_of(carried.engine)), fmt::arg("dump", dump_name(carried.engine)),
+                    fmt::arg("end", end_name));
     const std::string forced =
         fmt::format(forced_text, fmt::arg("begin", forced_begin), fmt::arg("end", forced_end),
                     fmt::arg("words", forced_words), fmt::arg("restart", restart_name(carried.engine)));

@@ -199,6 +199,7 @@ void FrameWriter::Impl::make(const std::string& format) {
 // The first frame with grains tells what all frames have. Those before it wait.
 void FrameWriter::Impl::begin(const grainreel::State& first) {
     supply.orientations = !first.orientation.empty();
+    if (first.size() > 0) world.first_id = first.id.front() == 0 ? 0 : 1;
     writer->begin(world, supply);
     begun = true;
     for (const grainreel::State& frame : waiting) writer->frame(frame, {});

@@ -87,6 +87,7 @@ HealthLimits health_limits(const Scene& scene, const Plan& plan) {
     limits.clock = plan.clock;
     limits.wall_speed = plan.wall_speed;
     limits.vessel = closed_vessel(scene);
+    limits.planned = 2 * std::max(scene.run.overlap, plan.expected_overlap);  // of diameters there
     for (std::size_t a = 0; a < scene.species.size(); ++a) {
         const Species& first = scene.species[a];
         const double radius = 0.5 * first.diameter.smallest, mass = largest_mass(first);
@@ -158,14 +159,103 @@ void check_vessel(const HealthLimits& limits, const Surroundings& around, const 
 
 }  // namespace
 
-void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
-                 const StepLoop& loop, std::int64_t step) {
-    check_state(
+DeepestContact check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
+                           const StepLoop& loop, std::int64_t step) {
+    return check_state(
         limits, around, grains, [&](const auto& see) { loop.visit_contacts(step, see); }, step);
 }
 
-void check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
-                 const ShowContacts& show, std::int64_t step) {
+namespace {
+
+// Whether a wall goes its own way, whatever is in its way: it turns, follows a path or has a velocity.
+bool goes_its_way(const Body& body) {
+    return body.has_own_motion() || !body.velocity.isZero(0);
+}
+
+// The name of a wall that goes its own way and touches one of these two grains; empty if none does.
+std::string pressing_wall(const Surroundings& around, const ShowContacts& show, std::int32_t first,
+                          std::int32_t second) {
+    std::int32_t pressing = -1;
+    show([&](const ContactView& c) {
+        if (c.second >= 0 || (c.first != first && c.first != second)) return;
+        const auto wall = static_cast<std::size_t>(-1 - c.second);
+        const std::size_t faces = around.faces.size();
+        const Body& body = wall < faces ? around.faces[wall].body : around.meshes[wall - faces].body;
+        if (goes_its_way(body)) pressing = std::max(pressing, -1 - c.second);
+    });
+    return pressing < 0 ? "" : wall_name(around, pressing);
+}
+
+// Empty without a wall.
+std::string advice_against(const std::string& pressing_wall) {
+    if (pressing_wall.empty()) return "";
+    return fmt::format(
+        "{} moves on whatever is in its way: let it stop, or turn back, a grain's diameter before "
+        "other walls, or leave fewer grains between",
+        pressing_wall);
+}
+
+// What may help against the overlap of grain `first` with `second`, which are as in a ContactView.
+std::string remedy_for(const Surroundings& around, const ShowContacts& show, std::int32_t first,
+                       std::int32_t second) {
+    const std::string presses = advice_against(pressing_wall(around, show, first, second));
+    if (!presses.empty()) return presses;
+    const std::int32_t mesh = -1 - second - static_cast<std::int32_t>(around.faces.size());
+    const std::string stiffness =
+        second >= 0 ? "contact.stiffness"
+        : mesh >= 0 ? fmt::format("stiffness of the contacts with {}", wall_name(around, -1 - second))
+                    : "contact.wall.stiffness";
+    return fmt::format("take a larger {} or a smaller run.step", stiffness);
+}
+
+std::size_t index_of_id(const Grains& grains, std::int32_t id) {
+    return static_cast<std::size_t>(std::find(grains.id.begin(), grains.id.end(), id) - grains.id.begin());
+}
+
+DeepestContact named(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
+                     const ShowContacts& show, std::int64_t step, const ContactView& c) {
+    DeepestContact deepest;
+    deepest.share = c.overlap / c.smaller_radius;
+    deepest.step = step;
+    deepest.time = limits.clock.time(step);
+    deepest.grain = grains.id[c.first];
+    deepest.species = limits.species[grains.species[c.first]];
+    deepest.other =
+        c.second < 0 ? wall_name(around, -1 - c.second) : fmt::format("grain {}", grains.id[c.second]);
+    if (deepest.share > std::min(limits.told(), limits.overlap))
+        deepest.remedy = remedy_for(around, show, c.first, c.second);
+    return deepest;
+}
+
+}  // namespace
+
+DeepestContact deepest_contact(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
+                               const ShowContacts& show, std::int64_t step) {
+    ContactView deepest{};
+    deepest.smaller_radius = 1;
+    // Threads show their contacts in another order, so among equals the ids decide.
+    const auto ids = [&](const ContactView& c) {
+        return std::pair(grains.id[c.first], c.second < 0 ? c.second : grains.id[c.second]);
+    };
+    show([&](const ContactView& c) {
+        const double more = c.overlap * deepest.smaller_radius - deepest.overlap * c.smaller_radius;
+        if (more > 0 || (more == 0 && c.overlap > 0 && ids(c) < ids(deepest))) deepest = c;
+    });
+    if (deepest.overlap <= 0) return {};
+    return named(limits, around, grains, show, step, deepest);
+}
+
+std::string overlap_text(const HealthLimits& limits, const DeepestContact& deepest) {
+    if (deepest.share <= limits.told()) return "";
+    return fmt::format(
+        "grain {} ({}) overlapped {} by {:.2g} of the smaller radius at {:.6g} s, where {:.2g} are "
+        "planned at most; {}",
+        deepest.grain, deepest.species, deepest.other, deepest.share, deepest.time, limits.planned,
+        deepest.remedy);
+}
+
+DeepestContact check_state(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
+                           const ShowContacts& show, std::int64_t step) {
     const DrivePose pose = around.motion.at(step);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         if (!finite(grains, i)) {
@@ -175,29 +265,23 @@ void check_state(const HealthLimits& limits, const Surroundings& around, const G
         for (const Face& face : around.faces) {
             if (distance_at(face, pose, grains.place[i].position).distance > -grains.place[i].radius)
                 continue;
-            throw RunError(
-                fmt::format("{}: {} went through the {}; take a smaller run.step or a larger "
-                            "contact.wall.stiffness",
-                            moment(limits.clock, step), grain_name(limits, grains, i), face.name));
+            const auto grain = static_cast<std::int32_t>(i);
+            const std::string presses = advice_against(pressing_wall(around, show, grain, grain));
+            throw RunError(fmt::format(
+                "{}: {} went through the {}; {}", moment(limits.clock, step), grain_name(limits, grains, i),
+                face.name,
+                presses.empty() ? "take a smaller run.step or a larger contact.wall.stiffness" : presses));
         }
     }
     check_vessel(limits, around, grains, step);
     check_way_of_a_step(limits, grains, step);
-    show([&](const ContactView& c) {
-        if (c.overlap <= limits.overlap * c.smaller_radius) return;
-        const bool wall = c.second < 0;
-        const std::string other =
-            wall ? wall_name(around, -1 - c.second) : fmt::format("grain {}", grains.id[c.second]);
-        const bool mesh = wall && -1 - c.second >= std::ssize(around.faces);
-        throw RunError(
-            fmt::format("{}: {} overlaps {} by {:.2f} of the smaller radius; take a larger {} or a smaller "
-                        "run.step",
-                        moment(limits.clock, step), grain_name(limits, grains, c.first), other,
-                        c.overlap / c.smaller_radius,
-                        mesh   ? "stiffness of its contacts"
-                        : wall ? "contact.wall.stiffness"
-                               : "contact.stiffness"));
-    });
+    DeepestContact deepest = deepest_contact(limits, around, grains, show, step);
+    if (deepest.share > limits.overlap)
+        throw RunError(fmt::format("{}: {} overlaps {} by {:.2f} of the smaller radius; {}",
+                                   moment(limits.clock, step),
+                                   grain_name(limits, grains, index_of_id(grains, deepest.grain)),
+                                   deepest.other, deepest.share, deepest.remedy));
+    return deepest;
 }
 
 void EnergyWatch::check(double energy, double work, double through, double allowance,

@@ -1,4 +1,4 @@
-// Warnings of grains that lie in an exit before the run begins.
+// Warnings of grains that lie in an exit before the run begins, or come in one.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
@@ -45,19 +45,44 @@ double share_in_exits(const Scene& scene) {
                          [&](const Vec3& place) { return in_exit(scene, place); });
 }
 
+// The share of a feed's box that lies in exits.
+double share_of_feed(const Scene& scene, const Feed& feed) {
+    constexpr int places = 9;  // along each axis, in the middles of cells
+    int inside = 0;
+    for (int at = 0; at < places * places * places; ++at) {
+        const Vec3 cell(at % places, at / places % places, at / (places * places));
+        const Vec3 share = (cell + Vec3(0.5, 0.5, 0.5)) / places;
+        inside += in_exit(scene, feed.low + share.cwiseProduct(feed.high - feed.low));
+    }
+    return inside / std::pow(places, 3);
+}
+
+std::vector<std::string> feed_warnings(const Scene& scene) {
+    std::vector<std::string> warnings;
+    for (std::size_t k = 0; k < scene.feeds.size(); ++k)
+        if (const double share = share_of_feed(scene, scene.feeds[k]); share > 0)
+            warnings.push_back(
+                fmt::format("{}: {:.3g} % of the feed's box lies in an exit, and grains that come there "
+                            "leave at once; unless you mean that, move one of them",
+                            scene.where(fmt::format("feed[{}]", k)), 100 * share));
+    return warnings;
+}
+
 }  // namespace
 
 std::string exit_warning(const Scene& scene, double leave, std::int64_t all, bool known) {
     return fmt::format(
-        "{}: {}{:.0f} of {} grains ({:.2g} %) lie in an exit when the run begins, and leave at 0 s; unless "
+        "{}: {}{:.0f} of {} grains ({:.3g} %) lie in an exit when the run begins, and leave at 0 s; unless "
         "you "
         "mean that, move the exit away from them",
         scene.where("exit[0]"), known ? "" : "about ", leave, all, 100 * leave / static_cast<double>(all));
 }
 
 std::vector<std::string> exit_warnings(const Scene& scene) {
+    if (scene.exits.empty()) return {};
+    std::vector<std::string> warnings = feed_warnings(scene);
     const std::int64_t all = scene.grains_at_start();
-    if (scene.exits.empty() || all == 0) return {};
+    if (all == 0) return warnings;
     double leave = 0;
     if (scene.start.method == Start::Method::grains) {
         leave = static_cast<double>(
@@ -66,8 +91,9 @@ std::vector<std::string> exit_warnings(const Scene& scene) {
     } else if (scene.start.packs()) {
         leave = std::round(share_in_exits(scene) * static_cast<double>(all));
     }
-    if (leave < 1) return {};
-    return {exit_warning(scene, leave, all, scene.start.method == Start::Method::grains)};
+    if (leave >= 1)
+        warnings.push_back(exit_warning(scene, leave, all, scene.start.method == Start::Method::grains));
+    return warnings;
 }
 
 }  // namespace grainreel

@@ -129,7 +129,7 @@ void look_at_motion(const Scene& scene, const std::string& table, const Drive& m
     } else if (const double gamma = motion.g_level(scene.gravity.norm());
                std::isfinite(gamma) && gamma > hardest) {
         warnings.add(key,
-                     fmt::format("gamma is {:.4g}, with {:.4g} Hz and an amplitude of {:.4g} m; beds are "
+                     fmt::format("g_level is {:.4g}, with {:.4g} Hz and an amplitude of {:.4g} m; beds are "
                                  "shaken with 1 to 50: are the units those you mean?",
                                  gamma, motion.frequency, motion.amplitude));
     }

@@ -54,7 +54,7 @@ void warn_of_drive(const Scene& scene, const Plan& plan, const BedPlan& bed, War
     if (upright && bed.gravity > 0 && bed.g_level < 1 - rounding && only_the_drive_moves(scene))
         warnings.add(
             "drive",
-            fmt::format("gamma is {:.3g}, below 1: the bed stays on the floor and nothing will move; raise "
+            fmt::format("g_level is {:.3g}, below 1: the bed stays on the floor and nothing will move; raise "
                         "g_level or amplitude",
                         bed.g_level));
     const bool reaches_a_period =

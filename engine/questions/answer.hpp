@@ -45,8 +45,8 @@ struct AnswerTable {
 
 // The moment that an answer is about.
 struct AnswerMoment {
-    double time = 0;  // s; NaN when it is not known
-    std::int64_t step = 0;
+    double time = 0;                     // s; NaN when it is not known
+    std::optional<std::int64_t> step{};  // none where the files have no steps
     std::string how;  // where it comes from: "kept moment 3 of 20", "brought back" (computed again)
 };
 

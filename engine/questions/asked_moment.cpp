@@ -129,14 +129,21 @@ AskedMoment find_moment(const StoredRun& run, const MomentRequest& request) {
     const Clock& clock = run.clock();
     const std::vector<State>& moments = run.moments();
     const auto named = [&](double time, const char* option) {
-        const double to = std::max(run.to(), clock.step > 0 ? clock.time(run.last_step()) : run.to()),
-                     hair = 1e-9 + 1e-9 * std::abs(time);
-        // A run of 8 s ends with its last whole step, which may lie a little before.
-        if (time > to && time <= to + clock.step * (1 + 1e-9)) time = to;
-        run.check_time(option, time, to, hair);
+        const double from = run.from(),
+                     to = std::max(run.to(), clock.step > 0 ? clock.time(run.last_step()) : run.to());
+        // A run of 8 s ends with its last whole step, which may lie a little before, and messages show times
+        // with six digits.
+        const double room = std::max(clock.step, 1e-5 * std::abs(time)) * (1 + 1e-9) + 1e-9;
+        if (time >= from - room && time <= to + room) time = std::clamp(time, from, std::max(from, to));
+        run.check_time(option, time, to, 0);
         AskedMoment asked;
         asked.nearest = run.nearest(time);
         asked.step = clock.step > 0 ? std::llround(time / clock.step) : moments[asked.nearest].step;
+        // What cannot be brought back is asked for as it was kept.
+        const bool kept_alone =
+            run.kind() != StoredRun::Kind::ours && run.kind() != StoredRun::Kind::elsewhere;
+        if (kept_alone && std::abs(moments[asked.nearest].time - time) <= run.room_beside(asked.nearest))
+            asked.step = moments[asked.nearest].step;
         if (moments[asked.nearest].step == asked.step) asked.kept = asked.nearest;
         asked.time = clock.step > 0 ? clock.time(asked.step) : moments[asked.nearest].time;
         return asked;
@@ -235,11 +242,17 @@ void see_periods(StoredRun& run, const AskedMoment& moment, double periods, bool
     }
 }
 
+double room_in(const StoredRun& run, double interval) {
+    // Half a step, because the ends of a run lie at whole steps.
+    return std::clamp(0.501 * run.clock().step / interval, 1e-9, 0.25);
+}
+
 void see_every(StoredRun& run, double interval, const ReplayWatcher& watcher,
                const std::function<void(const Snapshot&)>& see) {
-    constexpr double most = 1e6, rounding = 1e-9;
+    constexpr double most = 1e6;
     const Clock& clock = run.clock();
-    const std::int64_t last_step = run.moments().back().step;
+    const double rounding = room_in(run, interval);
+    const std::int64_t first_step = run.moments().front().step, last_step = run.moments().back().step;
     const double first = std::ceil(run.from() / interval - rounding),
                  count = std::floor(run.to() / interval + rounding) - first + 1;
     if (interval < clock.step)
@@ -250,8 +263,8 @@ void see_every(StoredRun& run, double interval, const ReplayWatcher& watcher,
             "--every: makes {:.3g} moments, and the most are {:.0g}; take a longer time", count, most));
     if (count < 1) throw UserError("--every: no multiple of it lies in the run; take a shorter time");
     const auto step_of = [&](double k) {
-        return std::min(last_step,
-                        static_cast<std::int64_t>(std::llround((first + k) * interval / clock.step)));
+        const auto step = static_cast<std::int64_t>(std::llround((first + k) * interval / clock.step));
+        return std::clamp(step, first_step, last_step);
     };
     AskedMoment begin;
     begin.step = step_of(0);

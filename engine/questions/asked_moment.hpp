@@ -48,6 +48,9 @@ Snapshot brought_back_snapshot(StoredRun& run, const AskedMoment& moment, const 
 // the film counts it. Throws UserError also where the run has no drive, or does not reach back so far.
 Snapshot brought_back_with_ways(StoredRun& run, const AskedMoment& moment, const ReplayWatcher& watcher);
 
+// How far beyond the ends of a run a multiple of an interval (s) may lie, as a share of the interval.
+double room_in(const StoredRun& run, double interval);
+
 // Calls `see` with moments of the last `periods` periods of the drive before `moment`, and with `moment`
 // itself. With `replay` these are kMomentsAPeriod moments for each period, brought back; without it, the
 // moments that the run kept in this time. Throws UserError without a drive, and where the run does not reach

@@ -164,7 +164,7 @@ AnswerTable power_table(const BodyPose& pose, const Forces& on_wall) {
         "motion",
         "It moves",
         {{"torque", Dimension::moment, "of the grains on it, about the axis that it turns about now"},
-         {"power", Dimension::number, "that it gives the grains", "", "W"},
+         {"power", Dimension::power, "that it gives the grains"},
          {"spin", Dimension::spin, "magnitude"},
          {"turned", Dimension::degrees, "from rest, up to half a turn"}},
         {{torque, power, pose.spin.norm(), rotation_vector(pose.rotation).norm() * 180 / std::numbers::pi}},

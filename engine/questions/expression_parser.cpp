@@ -53,6 +53,9 @@ void ExpressionParser::parse() {
     if (at_ == text_.size()) fail(0, "nothing is asked; write for example \"height > 2 cm\"");
     either();
     skip_spaces();
+    const bool comma = at_ > 0 && at_ + 1 < text_.size() && text_[at_] == ',' && is_digit(text_[at_ - 1]) &&
+                       is_digit(text_[at_ + 1]);
+    if (comma) fail(at_, "a number has a point in place of the comma, as in 9.5");
     if (at_ < text_.size())
         fail(at_, fmt::format("'{}' is not expected here", excerpt(text_.substr(at_), 20)));
 }

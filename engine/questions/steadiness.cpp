@@ -79,6 +79,79 @@ double sen_slope(const std::vector<Batch>& all) {
     return slopes.size() % 2 == 1 ? slopes[middle] : 0.5 * (slopes[middle - 1] + slopes[middle]);
 }
 
+std::vector<double> values_of(const std::vector<Batch>& all) {
+    std::vector<double> values;
+    for (const Batch& one : all) values.push_back(one.value);
+    return values;
+}
+
+// Takes the mean from the values. Values that are equal but for rounding become 0.
+std::vector<double> without_mean(std::vector<double> values) {
+    const double first = values.front();
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::abs(first);
+    double mean = 0;
+    for (double& value : values) {
+        value = std::abs(value - first) > rounding ? value - first : 0;
+        mean += value / static_cast<double>(values.size());
+    }
+    for (double& value : values) value -= mean;
+    return values;
+}
+
+// Takes the straight line of least squares from the values.
+std::vector<double> without_line(const std::vector<double>& values) {
+    std::vector<double> rest = without_mean(values);
+    const double middle = 0.5 * static_cast<double>(rest.size() - 1);
+    double products = 0, squares = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        const double x = static_cast<double>(i) - middle;
+        products += x * rest[i], squares += x * x;
+    }
+    for (std::size_t i = 0; i < rest.size(); ++i)
+        rest[i] -= products / squares * (static_cast<double>(i) - middle);
+    return rest;
+}
+
+// Lag-1 correlation of values whose mean is 0; 0 if all of them are.
+double lag_1_of(const std::vector<double>& values) {
+    double products = 0, squares = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        squares += values[i] * values[i];
+        if (i > 0) products += values[i] * values[i - 1];
+    }
+    return squares > 0 ? products / squares : 0;
+}
+
+// Lag-1 correlation of at least three values, without their trend and without the bias that this brings.
+double correlation_of(const std::vector<double>& values) {
+    const double r = lag_1_of(without_line(values));
+    return r + (2 + 4 * r) / static_cast<double>(values.size());
+}
+
+// The factor by which the error of the mean of k values with this lag-1 correlation is larger than without
+// one. The correlation that is measured with their mean is too small by (1 + 3 r) / k.
+double widening(const std::vector<double>& means) {
+    const double r = lag_1_of(without_mean(means));
+    const double correlation = std::clamp(r + (1 + 3 * r) / static_cast<double>(means.size()), 0.0, 0.9);
+    return std::sqrt((1 + correlation) / (1 - correlation));
+}
+
+// The largest lag-1 correlation of k independent values that is left to chance, one-sided at kSignificance.
+double chance_of_correlation(std::size_t k) {
+    return 1.645 / std::sqrt(static_cast<double>(k));
+}
+
+// The rows whose mean is asked for: all behind the transient, or with a drive the means of its periods.
+std::vector<double> rows_behind(const std::vector<Batch>& rows, const std::vector<Batch>& rest,
+                                double period) {
+    if (period > 0) return values_of(rest);
+    std::vector<double> values;
+    for (const Batch& row : rows)
+        if (row.time >= rest.front().from && values.size() < rest.size() * kRowsWithoutDrive)
+            values.push_back(row.value);
+    return values;
+}
+
 const char* word_of(const Steadiness& of) {
     switch (of.verdict) {
         case Steadiness::Verdict::steady:
@@ -98,10 +171,20 @@ std::string why(const Steadiness& of, bool driven) {
     if (of.batches < kLeastBatches)
         return fmt::format("there are {} {}, and {} are the least that tell anything; run longer", of.batches,
                            unit, kLeastBatches);
-    return of.dropped >= of.batches
-               ? "the mean is still on its way in the second half, so the transient is not over; run longer"
-               : fmt::format("behind the transient there are {} {}, and {} are the least; run longer",
-                             of.batches - of.dropped, unit, kLeastBatches);
+    if (of.dropped >= of.batches)
+        return "the mean is still on its way in the second half, so the transient is not over; run longer";
+    if (of.batches - of.dropped < kLeastBatches)
+        return fmt::format("behind the transient there are {} {}, and {} are the least; run longer",
+                           of.batches - of.dropped, unit, kLeastBatches);
+    if (of.independent < kLeastIndependent)
+        return fmt::format(
+            "the rows behind the transient hang together: they are worth {:.0f} independent "
+            "values, and {:g} are the least; run longer",
+            std::floor(of.independent), kLeastIndependent);
+    return fmt::format(
+        "the means behind the transient hang together, with a lag-1 correlation of {:.2f}; "
+        "run longer",
+        of.correlation);
 }
 
 }  // namespace
@@ -120,6 +203,13 @@ std::size_t mser_truncation(const std::vector<double>& means) {
         if (n - d >= least_rest && error <= least) least = error, best = d;
     }
     return 2 * best > n ? n : best;
+}
+
+double independent_values(const std::vector<double>& values) {
+    const auto n = static_cast<double>(values.size());
+    if (values.size() < 3) return n;
+    const double r = std::clamp(correlation_of(values), -0.99, 0.999999);
+    return n * (1 - r) / (1 + r);
 }
 
 MannKendall mann_kendall(const std::vector<double>& values) {
@@ -142,25 +232,24 @@ MannKendall mann_kendall(const std::vector<double>& values) {
 }
 
 Steadiness steadiness_of(const std::vector<double>& times, const std::vector<double>& values, double period) {
-    const std::vector<Batch> all = batches_of(finite_rows(times, values), period);
+    const std::vector<Batch> rows = finite_rows(times, values), all = batches_of(rows, period);
     Steadiness of;
     of.batches = all.size();
     if (of.batches < kLeastBatches) return of;
-    std::vector<double> means;
-    for (const Batch& one : all) means.push_back(one.value);
+    std::vector<double> means = values_of(all);
     of.dropped = mser_truncation(means);
     if (of.batches - of.dropped < kLeastBatches) return of;
     const std::vector<Batch> rest(all.begin() + static_cast<std::ptrdiff_t>(of.dropped), all.end());
     const std::vector<Batch> tested = long_batches(rest);
-    means.clear();
-    for (const Batch& one : tested) means.push_back(one.value);
+    means = values_of(tested);
+    of.independent = independent_values(rows_behind(rows, rest, period));
+    of.correlation = correlation_of(means);
+    if (of.independent < kLeastIndependent || of.correlation > chance_of_correlation(means.size())) return of;
     const MannKendall test = mann_kendall(means);
-    const Statistics statistics = statistics_of(means);
     of.from = rest.front().from;
     of.tested = tested.size();
     of.mean = joined(rest, 0, rest.size()).value;
-    of.half_width = student_t(0.95, static_cast<int>(of.tested) - 1) * statistics.deviation /
-                    std::sqrt(static_cast<double>(of.tested));
+    of.half_width = mean_interval(means).half * widening(means);
     of.slope = sen_slope(tested);
     of.tau = test.tau, of.p = test.p;
     of.verdict = test.p < kSignificance ? Steadiness::Verdict::drifts : Steadiness::Verdict::steady;
@@ -199,16 +288,20 @@ Answer steady_answer(const StoredRun& run, const std::string& column) {
                         {"drift", Dimension::number, "slope of Sen", "", (unit == "1" ? "" : unit) + "/s"},
                         {"tau", Dimension::number, "of Kendall: 1 rises always, -1 falls always"},
                         {"p", Dimension::number, "of a tau as large where nothing drifts"},
-                        {"means", Dimension::number, "that were tested"}},
+                        {"means", Dimension::number, "that were tested"},
+                        {"independent", Dimension::number, "values that the rows are worth"}},
                        {{word_of(of), known(of.from), known(of.mean), known(of.half_width), known(of.slope),
-                         known(of.tau), known(of.p), static_cast<std::int64_t>(of.tested)}}};
+                         known(of.tau), known(of.p), static_cast<std::int64_t>(of.tested),
+                         of.independent > 0 ? AnswerCell(of.independent) : AnswerCell()}}};
     if (answer.columns[4].unit == "/s") answer.columns[4].unit = "1/s";
-    return {{std::move(answer)},
-            {why(of, driven),
-             fmt::format("transient: MSER over means of {} (White 1997; White, Cobb, Spratt 2000); drift: "
-                         "Mann-Kendall test at {:g} (Mann 1945, Kendall 1975), slope of Sen (1968)",
-                         driven ? "a period of the drive" : fmt::format("{} rows", kRowsWithoutDrive),
-                         kSignificance)}};
+    return {
+        {std::move(answer)},
+        {why(of, driven),
+         fmt::format(
+             "transient: MSER over means of {} (White 1997; White, Cobb, Spratt 2000); drift: "
+             "Mann-Kendall test at {:g} (Mann 1945, Kendall 1975), slope of Sen (1968); whether it is "
+             "long enough: lag-1 correlation of rows and means (Law, Carson 1979)",
+             driven ? "a period of the drive" : fmt::format("{} rows", kRowsWithoutDrive), kSignificance)}};
 }
 
 }  // namespace grainreel

@@ -1,14 +1,18 @@
 // Whether a measured column is steady: where its transient ends, and whether it drifts after that.
 //
-// There are two questions with one test each. Both see means of batches, and a batch is m rows in
-// succession. MSER-m (marginal standard error rule) finds where the transient ends. It drops batches at the
-// front. Their number is the one for which the mean of the rest has the least standard error (White,
-// Simulation 69, 1997; White, Cobb and Spratt, Proc. Winter Simulation Conf., 2000). It needs no parameter
-// and is hard to mislead. The Mann-Kendall test decides whether the rest drifts (Mann, Econometrica 13, 1945;
-// Kendall, Rank Correlation Methods, 1975). It looks for a trend of any shape and assumes no distribution.
-// The size of the drift is the slope of Sen (J. Am. Stat. Assoc. 63, 1968). The test assumes independent
-// values, so it gets means of long batches. Geweke's test (1992) would answer both questions with one number,
-// but it needs spectral estimates that short series do not give.
+// There are two questions with one test each, and before them a third: do the rows tell enough? All see means
+// of batches, and a batch is m rows in succession. MSER-m (marginal standard error rule) finds where the
+// transient ends. It drops batches at the front. Their number is the one for which the mean of the rest has
+// the least standard error (White, Simulation 69, 1997; White, Cobb and Spratt, Proc. Winter Simulation
+// Conf., 2000). It needs no parameter and is hard to mislead. The Mann-Kendall test decides whether the rest
+// drifts (Mann, Econometrica 13, 1945; Kendall, Rank Correlation Methods, 1975). It looks for a trend of any
+// shape and assumes no distribution. The size of the drift is the slope of Sen (J. Am. Stat. Assoc. 63,
+// 1968). The test and the interval of the mean assume independent values, so they get means of long batches.
+// In a run of few correlation times these means hang together too, and then the interval is too narrow and
+// the test sees drifts everywhere. So the answer is "too short" where the rows are worth less than
+// kLeastIndependent independent values, or where the lag-1 correlation of the long batches is not small (Law
+// and Carson, Oper. Res. 27, 1979). Geweke's test (1992) would answer both questions with one number, but it
+// needs spectral estimates that short series do not give.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +31,10 @@ class StoredRun;  // engine/run/stored/stored_run.hpp
 constexpr std::size_t kRowsWithoutDrive = 5;                  // rows in a batch of MSER, without a drive
 constexpr std::size_t kLeastBatches = 10, kMostBatches = 20;  // batches in the test of drift
 constexpr double kSignificance = 0.05;                        // level of the test of drift, two-sided
+// Least number of independent values that the rows behind the transient must be worth. A series of first
+// order and T correlation times is worth T / 2; from about 70 on, 95 % intervals hold the mean in 92 % to 95
+// %.
+constexpr double kLeastIndependent = 36;
 
 struct Steadiness {
     enum class Verdict { steady, drifts, too_short };
@@ -35,7 +43,10 @@ struct Steadiness {
     std::size_t batches = 0;  // number of all batches; each has the rows of a period, or kRowsWithoutDrive
     std::size_t dropped = 0;  // batches dropped at the front
     std::size_t tested = 0;   // number of means in the test of drift
-    // Mean after the transient, and half the width of its 95 % interval (Student's t of the tested means).
+    double independent = 0;   // how many independent values the rows behind the transient are worth
+    double correlation = 0;   // lag-1 correlation of the means in the test of drift
+    // Mean after the transient, and half the width of its 95 % interval (Student's t of the tested means,
+    // wider by what is left of their correlation).
     double mean = std::numeric_limits<double>::quiet_NaN(), half_width = mean;
     double slope = mean;  // Sen's slope, the value's unit per s
     // Kendall's tau, and the probability of this |tau| or a larger one if there is no trend.
@@ -49,6 +60,12 @@ Steadiness steadiness_of(const std::vector<double>& times, const std::vector<dou
 // The number of batches that MSER drops. If the least error lies in the second half, the transient is not
 // over, and the number is that of all batches. Otherwise it is at most half of them.
 std::size_t mser_truncation(const std::vector<double>& batch_means);
+
+// The number of independent values that would give a mean of the same error: n (1 - r) / (1 + r) for n values
+// with the lag-1 correlation r of an autoregressive process of first order. A straight line is taken from the
+// values first. Its slope and their mean make r too small, by (2 + 4 r) / n (Kendall, Biometrika 41, 1954);
+// this is added again.
+double independent_values(const std::vector<double>& values);
 
 struct MannKendall {
     double s = 0, tau = 0, z = 0, p = 1;

@@ -209,7 +209,8 @@ std::vector<std::size_t> kept_nearest(const StoredRun& run, double every) {
     const std::vector<State>& moments = run.moments();
     std::vector<std::size_t> all;
     std::size_t at = 0;
-    for (double k = std::ceil(run.from() / every - 1e-9); k * every <= run.to() * (1 + 1e-9); ++k) {
+    const double room = room_in(run, every);
+    for (double k = std::ceil(run.from() / every - room); k <= run.to() / every + room; ++k) {
         const auto distance = [&](std::size_t i) { return std::abs(moments[i].time - k * every); };
         while (at + 1 < moments.size() && distance(at + 1) <= distance(at)) ++at;
         if (all.empty() || all.back() != at) all.push_back(at);

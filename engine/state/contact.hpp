@@ -22,6 +22,7 @@ struct SavedContact {
     Vec3 tangential;             // N, on `second`
     Vec3 point;                  // m
     std::int32_t triangle = -1;  // triangle of a mesh that is touched; -1 for other bodies
+    Vec3 rolling{0, 0, 0};       // N m, torque of the resistance to rolling on `second`
     bool operator==(const SavedContact&) const = default;
 };
 

@@ -26,7 +26,7 @@ struct ContactView {
                              // unloaded now
     double damping_power;    // W, lost in the normal dashpot
     double rubbing_power;    // W, that slip and rolling put into springs, friction and tangential dashpots
-    Vec3 point;              // m, where the bodies touch
+    Vec3 point;              // m, where the bodies touch: on a wall's surface, or where two spheres intersect
 };
 
 }  // namespace grainreel

@@ -1,7 +1,6 @@
 #include "render/app/bench_render.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -12,6 +11,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/own_folder.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/peers_bed.hpp"
@@ -173,13 +173,12 @@ class DrawnStages {
 };
 
 double encode_time(const Picture& picture, const Film& film, int threads) {
-    const std::filesystem::path path =
-        std::filesystem::temp_directory_path() / fmt::format("grainreel-bench-{}.mp4", ::getpid());
+    const ScratchFolder folder("bench");
     constexpr int kFrames = 30;
     const double begin = milliseconds();
     {
         EncoderSettings settings;
-        settings.path = path;
+        settings.path = folder.path() / "film.mp4";
         settings.width = film.width;
         settings.height = film.height;
         settings.quality = film.quality;
@@ -190,7 +189,6 @@ double encode_time(const Picture& picture, const Film& film, int threads) {
         encoder.finish();
     }
     const double taken = milliseconds() - begin;
-    std::filesystem::remove(path);
     return taken / kFrames;
 }
 

@@ -1,4 +1,5 @@
 // The program: finds the verb, runs it, and turns mistakes and failures into exit codes.
+#include <sys/resource.h>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -53,11 +54,27 @@ int parse_and_run(int argc, char** argv) {
     });
 }
 
+// Whether the stack is large enough for the program and its threads, which get stacks of the same size. With
+// a smaller one the program would end at some deep call without a word, so this tells what to do.
+bool has_stack() {
+    constexpr rlim_t least = rlim_t{256} << 10;  // bytes
+    rlimit stack{};
+    if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= least) return true;
+    const auto kilobytes = static_cast<unsigned long long>(stack.rlim_cur >> 10);
+    std::fprintf(
+        stderr,
+        "error: the stack is limited to %llu kB, and the program needs %llu; raise the limit by: ulimit "
+        "-s 8192\n",
+        kilobytes, static_cast<unsigned long long>(least >> 10));
+    return false;
+}
+
 }  // namespace
 }  // namespace grainreel
 
 int main(int argc, char** argv) {
     grainreel::open_missing_streams();
+    if (!grainreel::has_stack()) return grainreel::user_mistake;
     grainreel::ignore_write_signals();
     grainreel::use_own_files();
     return grainreel::parse_and_run(argc, argv);

@@ -2,7 +2,7 @@
 #   cmake -DFOLDER=... -DOUT=... -P embed_page.cmake
 # The scripts become one classic script: what a page opened from a file can run. A later script uses an earlier one's
 # classes. That of meshes is a piece of its own, which pages without meshes do without.
-set(scripts_before embedded run_time film charts bed_frames pair_forces camera walls shaders)
+set(scripts_before embedded run_time film charts page_bed pair_forces camera walls shaders)
 set(scripts_after viewer bed fields live main)
 
 foreach(where before after)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "engine/base/own_folder.hpp"
 #include "engine/base/team.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/plan/plan.hpp"
@@ -34,27 +35,6 @@ std::string type_of(FilmFormat format) {
     return format == FilmFormat::mp4 ? "video/mp4" : "video/webm";
 }
 
-// A folder that is removed when the page is made.
-class ScratchFolder {
-  public:
-    ScratchFolder() {
-        std::string name = (fs::temp_directory_path() / "grainreel-report-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr)
-            throw RunError("report: cannot make a folder for work in " + name);
-        path_ = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    fs::path file(const char* name) const { return path_ / name; }
-
-  private:
-    fs::path path_;
-};
-
 std::string copy_filter(const EncoderSettings& copy) {
     return fmt::format(
         "scale={}:{}:in_color_matrix=bt709:out_color_matrix=bt709:out_range=limited,format=yuv420p",
@@ -63,11 +43,11 @@ std::string copy_filter(const EncoderSettings& copy) {
 
 std::vector<std::uint8_t> smaller_copy(const FilmedScene& scene, const fs::path& film,
                                        const std::function<void()>& picture_taken) {
-    const ScratchFolder scratch;
+    const ScratchFolder scratch("report");
     const int threads = std::clamp(usable_processors(), 1, most_threads_of_copy);
     FilmReader reader(film, threads);
-    const EncoderSettings settings = settings_of_copy(scene, scratch.file("copy.mp4"), reader.codec().width,
-                                                      reader.codec().height, threads);
+    const EncoderSettings settings = settings_of_copy(scene, scratch.path() / "copy.mp4",
+                                                      reader.codec().width, reader.codec().height, threads);
     FilterGraph graph(reader.codec(), copy_filter(settings));
     std::unique_ptr<Encoder> copy;
     const auto take_pictures = [&] {

@@ -142,7 +142,7 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
         contacts.touches = [&all](std::size_t index) { return all.touches(index); };
         contacts.keys = key_moments_of(all);
         bed_news_ = news_of(all);
-        bed_ = bed_frames(all, most_bytes, progress, contacts);
+        bed_ = page_bed(all, most_bytes, progress, contacts);
     } catch (const UserError& problem) {
         // A frame in a file beside the trajectory is damaged, so only the trajectory is used.
         bed_news_.push_back(
@@ -150,7 +150,7 @@ void RunPart::read_bed(std::size_t most_bytes, const PageProgress& progress) {
         const std::unique_ptr<FilmColours> film = coloured(*run_.run);
         PageContacts contacts;
         contacts.film = film.get();
-        bed_ = bed_frames(*run_.run, most_bytes, progress, contacts);
+        bed_ = page_bed(*run_.run, most_bytes, progress, contacts);
     }
 }
 
@@ -290,7 +290,8 @@ std::vector<std::string> RunPart::news() const {
     const auto add = [&](const std::string& line) {
         if (!line.empty()) news.push_back(line);
     };
-    if (!run_json_.fault.empty())
+    const bool imported = run_.run && run_.run->kind() == StoredRun::Kind::imported;  // it has no run.json
+    if (!run_json_.fault.empty() && !imported)
         add(run_json_.fault + "; how the run ended and what made it are not on the page");
     if (!no_charts_.empty()) add(no_charts_ + "; the page has no charts");
     if (!table_fault_.empty() && news.end() == std::find_if(news.begin(), news.end(), [&](const auto& line) {

@@ -17,6 +17,12 @@ namespace {
 // (engine/measure/observer_list.hpp).
 constexpr std::size_t kCounters = 4;
 
+// The unit that ends the name of a column: "J" of kinetic_J; empty for outflow_rate.
+std::string unit_in_name(const MeasureColumn& column) {
+    const std::string last = column.name.substr(column.name.rfind('_') + 1);
+    return column.dimension != Dimension::number && unit_size_in(last, column.dimension) ? last : "";
+}
+
 LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& columns) {
     const std::size_t colon = inside.find(':');
     const std::string name = inside.substr(0, colon);
@@ -31,8 +37,10 @@ LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& 
             throw UserError(fmt::format("gives {{{}}} a unit, but it is a pure number; leave it out", name));
         return value;
     }
-    value.unit = colon == std::string::npos ? column->name.substr(column->name.rfind('_') + 1)
-                                            : inside.substr(colon + 1);
+    const std::string own = unit_in_name(*column);
+    value.unit = colon != std::string::npos ? inside.substr(colon + 1)
+                 : own.empty()              ? text_of(column->dimension).unit
+                                            : own;
     value.unit_size = unit_size(value.unit, column->dimension);
     return value;
 }
@@ -42,7 +50,7 @@ LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& 
 const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, const std::string& name) {
     for (std::size_t i = kCounters; i < columns.size(); ++i) {
         const std::string& full = columns[i].name;
-        const bool has_unit = columns[i].dimension != Dimension::number;
+        const bool has_unit = !unit_in_name(columns[i]).empty();
         if (full == name || (has_unit && full.substr(0, full.rfind('_')) == name)) return &columns[i];
     }
     return nullptr;

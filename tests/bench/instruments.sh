@@ -25,14 +25,14 @@ instructions() {
         --set start.method=file --set "start.file=$work/bed/checkpoint.grs" --duration "$duration" \
         --out "$out" "$@" > /dev/null 2> "$work/said" || { cat "$work/said" >&2; exit 1; }
     callgrind_annotate --inclusive=yes --threshold=100 "$work/calls" >"$work/inclusive"
-    awk '/grainreel::(Simulation::advance|SceneRun::serve)\(/ && !($3 in seen) {
+    awk '/grainreel::(SimulatedBed::advance|LiveShots::serve)\(/ && !($3 in seen) {
                  seen[$3] = 1; gsub(",", "", $1); sum += $1 }
              END { printf "%.0f\n", sum }' "$work/inclusive"
 }
 
 # Of the last run, the instructions of fields over those of all else.
 fields_alone() {
-    awk 'match($0, /grainreel::(Simulation::advance|SceneRun::serve|FieldRecord::(start|gather))\(/) {
+    awk 'match($0, /grainreel::(SimulatedBed::advance|LiveShots::serve|FieldRecord::(start|gather))\(/) {
              name = substr($0, RSTART, RLENGTH)
              if (name in seen) next
              seen[name] = 1

@@ -60,7 +60,7 @@ instructions() { # SCENE OPTIONS...
         --duration "$(awk "BEGIN { print $steps * $step }")" --out "$work/run" "$@" > /dev/null 2> "$work/said" ||
         { cat "$work/said" >&2; exit 1; }
     callgrind_annotate --inclusive=yes --threshold=100 "$work/calls" |
-        awk '/grainreel::Simulation::advance\(/ && !found++ { gsub(",", "", $1); print $1 }'
+        awk '/grainreel::SimulatedBed::advance\(/ && !found++ { gsub(",", "", $1); print $1 }'
 }
 echo "| bed | planes, instructions a grain-step | 12 triangles | 1,200 | 10,092 |"
 echo "|---|---|---|---|---|"

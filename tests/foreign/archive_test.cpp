@@ -178,7 +178,7 @@ TEST(RigidMotion, ATurnAndAShiftAreFound) {
     EXPECT_GT(rigid_motion(from, to).residual, 0.05);
 }
 
-TEST(WallMotion, PartsOfOneSolidMoveEachOnItsOwn) {
+TEST(ForeignWallMotion, PartsOfOneSolidMoveEachOnItsOwn) {
     const auto triangle = [](const Vec3& at) {
         TriangleMesh mesh;
         mesh.vertices = {at, at + Vec3(1, 0, 0), at + Vec3(0, 1, 0)};

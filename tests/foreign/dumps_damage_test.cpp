@@ -79,7 +79,7 @@ TEST(DamagedTextDump, Heads) {
 TEST(DamagedTextDump, EndlessLine) {
     const test::TemporaryFolder folder;
     EXPECT_THAT(text_complaint(folder, frame_text("7", "1", names, std::string(66 << 20, '1'))),
-                tells({":10: ", "longer than 64 MB"}));
+                tells({":10: ", "longer than 16 MB"}));
 }
 
 TEST(CutTextDump, WholeFramesAreReadAndTheLastIsLeftOut) {

@@ -130,10 +130,16 @@ TEST(DumpIndex, OfSomebodyElseIsNotBelieved) {
     std::filesystem::create_symlink(folder.path() / "elsewhere", index);
     EXPECT_FALSE(kept_index(file, FileBytes(file).state()));
     std::filesystem::rename(folder.path() / "elsewhere", index);
+    ::chmod(index.c_str(), 0666);
+    EXPECT_FALSE(kept_index(file, FileBytes(file).state())) << "everybody may write it";
+    ::chmod(index.c_str(), 0644);
+    EXPECT_TRUE(kept_index(file, FileBytes(file).state()));
     constexpr uid_t kOther = 54321;
     if (::chown(index.c_str(), kOther, kOther) != 0) return;  // only root may give a file away
     EXPECT_FALSE(kept_index(file, FileBytes(file).state()));
     if (::chown(file.c_str(), kOther, kOther) != 0) return;
+    keep_index(file, FileBytes(file).state(), index_of(file));  // the owner is a part of the dump's state
+    if (::chown(index.c_str(), kOther, kOther) != 0) return;
     EXPECT_TRUE(kept_index(file, FileBytes(file).state())) << "it belongs to the owner of the dump";
 }
 

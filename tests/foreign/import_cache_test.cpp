@@ -4,15 +4,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/base/own_folder.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/import/import_run.hpp"
+#include "tests/cli/small_disk.hpp"
 #include "tests/foreign/dump_files.hpp"
 
 namespace grainreel {
@@ -126,19 +130,104 @@ TEST_F(ImportCache, LosesTheRightsOfOthers) {
     EXPECT_EQ(rights_of(imports), 0755u);
 }
 
+// When the import was made, by the time of its trajectory.
+fs::file_time_type made(const Imported& run) {
+    return fs::last_write_time(run.folder / "trajectory.nc");
+}
+
 // An import that others could have changed is made anew.
 TEST_F(ImportCache, BelievesOnlyImportsThatNobodyElseCouldChange) {
-    const fs::path run = import().folder;
-    const auto news = [&] {
-        std::ofstream(run / kImportNews, std::ios::app) << "changed\n";
-        return import().news;
-    };
-    EXPECT_THAT(news(), testing::Contains("changed"));
-    ::chmod(run.parent_path().c_str(), 0777);
-    EXPECT_THAT(news(), testing::Not(testing::Contains("changed")));
+    const fs::file_time_type first = made(import());
+    EXPECT_EQ(made(import()), first) << "a sound import is found again";
+    const fs::path place = import().folder.parent_path();
+    ::chmod(place.c_str(), 0777);
+    const fs::file_time_type second = made(import());
+    EXPECT_NE(second, first);
     constexpr uid_t kOther = 54321;
-    if (::chown(run.parent_path().c_str(), kOther, kOther) != 0) return;  // not root
-    EXPECT_THAT(news(), testing::Not(testing::Contains("changed")));
+    if (::chown(place.c_str(), kOther, kOther) != 0) return;  // not root
+    EXPECT_NE(made(import()), second);
+}
+
+// Whatever lies in place of a file of an import, and whatever was done to the file, it is made anew.
+TEST_F(ImportCache, MakesADamagedImportAnew) {
+    const Imported sound = import();
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(sound.folder))
+        files.push_back(entry.path());
+    files.push_back(sound.folder.parent_path() / ".seal");
+    ASSERT_GE(files.size(), 5u);
+    const std::vector<std::pair<const char*, std::function<void(const fs::path&)>>> damages = {
+        {"cut", [](const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); }},
+        {"gone", [](const fs::path& file) { fs::remove(file); }},
+        {"a pipe", [](const fs::path& file) { fs::remove(file), ::mkfifo(file.c_str(), 0600); }},
+        {"a folder", [](const fs::path& file) { fs::remove(file), fs::create_directory(file); }},
+        {"a link",
+         [&](const fs::path& file) {
+             fs::rename(file, folder.path() / "moved");
+             fs::create_symlink(folder.path() / "moved", file);
+         }},
+        {"changed with its time", [](const fs::path& file) {
+             const auto time = fs::last_write_time(file);
+             std::fstream(file, std::ios::in | std::ios::out).write("#", 1);
+             fs::last_write_time(file, time);
+         }}};
+    fs::file_time_type before = made(sound);
+    for (std::size_t k = 0; k < std::max(files.size(), damages.size()); ++k) {
+        const fs::path& file = files[k % files.size()];
+        const auto& [what, damage] = damages[k % damages.size()];
+        EXPECT_EQ(made(import()), before) << "before " << file << " is " << what;
+        damage(file);
+        const Imported again = import();
+        EXPECT_NE(made(again), before) << file << " is " << what;
+        EXPECT_EQ(again.news, sound.news) << file << " is " << what;
+        EXPECT_EQ(again.folder, sound.folder);
+        before = made(again);
+    }
+}
+
+// A file may get back its former time (touch, cp -p, rsync); the time of its last change tells.
+TEST_F(ImportCache, NoticesAChangeBehindTheSameTime) {
+    const fs::file_time_type time = fs::last_write_time(dump);
+    const Imported before = import();
+    std::fstream(dump, std::ios::in | std::ios::out).seekp(-3, std::ios::end).write("2", 1);
+    fs::last_write_time(dump, time);
+    EXPECT_NE(import().folder, before.folder);
+}
+
+// The pieces of a list are files of the import too, though only the list was named.
+TEST_F(ImportCache, NoticesAChangeInAPieceOfAList) {
+    const auto piece = [&](const char* x) {
+        folder.write("piece.vtp",
+                     std::string("<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1\">"
+                                 "<Points><DataArray type=\"Float64\" format=\"ascii\">") +
+                         x +
+                         " 0 0</DataArray></Points><PointData><DataArray type=\"Float64\" "
+                         "Name=\"radius\">0.1</DataArray></PointData></Piece></PolyData></VTKFile>");
+    };
+    piece("1");
+    dump = folder.write("list.pvd",
+                        "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" "
+                        "file=\"piece.vtp\"/></Collection></VTKFile>");
+    const fs::file_time_type first = made(import());
+    EXPECT_EQ(made(import()), first);
+    piece("2");
+    EXPECT_NE(made(import()), first);
+}
+
+TEST_F(ImportCache, GoesToTheTemporaryFolderWhereTheCacheIsFull) {
+    const fs::path full = folder.path() / "full";
+    fs::create_directory(full);
+    const test::SmallDisk disk(full, 4096);
+    if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here";
+    const Variable there("XDG_CACHE_HOME", full.string());
+    const fs::file_time_type first = made(import());
+    EXPECT_EQ(import().folder.parent_path().parent_path(), imports);
+    EXPECT_EQ(made(import()), first) << "it is found there again";
+}
+
+TEST(NamedAs, TheFilesStandInPlaceOfTheFolder) {
+    EXPECT_EQ(named_as("/c/k/bed/scene.toml:3: wrong; see /c/k/bed", "/c/k/bed", "bed.dump"),
+              "bed.dump: scene.toml:3: wrong; see bed.dump");
 }
 
 TEST_F(ImportCache, RemovesNothingButImports) {

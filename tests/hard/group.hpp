@@ -40,6 +40,7 @@ struct Group {
     int cases;
     // Runs a case in an empty folder of its own, which is kept if there is a problem.
     std::function<Outcome(int number, Dice& dice, const std::filesystem::path& here)> run;
+    int when_all_run = 0;  // number of cases when all groups run; 0: all of them
 };
 
 // A finished run of fifty grains and pictures of it, with which the cases begin.
@@ -76,5 +77,6 @@ Group changed_continuations(const Ground& ground);
 Group killed_runs(const Ground& ground);
 Group resumed_runs(const Ground& ground);
 Group full_disks(const Ground& ground);
+Group random_scenes();
 
 }  // namespace grainreel::hard

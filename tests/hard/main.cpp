@@ -58,7 +58,9 @@ class Run {
 
   private:
     void work() {
-        for (int number; (number = next_++) < group_.cases;)
+        const bool all = !wanted_.group.empty() || group_.when_all_run == 0;
+        const int cases = all ? group_.cases : group_.when_all_run;
+        for (int number; (number = next_++) < cases;)
             if (wanted_.number < 0 || number == wanted_.number) one(number);
     }
 
@@ -125,7 +127,7 @@ int day(const Wanted& wanted) {
     bool well = true, any = false;
     for (const Group& group :
          {damaged_trajectories(ground), mutated_scenes(ground), changed_continuations(ground),
-          killed_runs(ground), resumed_runs(ground), full_disks(ground)}) {
+          killed_runs(ground), resumed_runs(ground), full_disks(ground), random_scenes()}) {
         if (!wanted.group.empty() && wanted.group != group.name) continue;
         any = true;
         well = Run(group, wanted, folder.path()).all() && well;

@@ -140,7 +140,8 @@ Outcome killed_late(Dice& dice, const fs::path& here) {
 }  // namespace
 
 Group resumed_runs(const Ground&) {
-    return {"resumed", 50, [](int number, Dice& dice, const fs::path& here) -> Outcome {
+    return {"resumed", 50,
+            [](int number, Dice& dice, const fs::path& here) -> Outcome {
                 const bool late = number % 2 == 1;
                 const auto start = std::chrono::steady_clock::now();
                 const Ran whole = attempt(late ? busy_movie(here, "whole") : movie(here, "whole"), here);
@@ -148,7 +149,8 @@ Group resumed_runs(const Ground&) {
                     std::chrono::steady_clock::now() - start);
                 if (whole.status != 0) return {"", "cannot be run: " + first_line(whole.err)};
                 return late ? killed_late(dice, here) : killed_at_any_time(number, dice, here, took);
-            }};
+            },
+            36};
 }
 
 }  // namespace grainreel::hard

@@ -116,6 +116,12 @@ def check_broken(place, program, tree):
         file.write_bytes((tree / "away").read_bytes()[:1000])
         check_line(file, "is not whole")
         (tree / "away").replace(file)
+    program_file, fonts = tree / "lib/grainreel/grainreel", tree / "share/grainreel/fonts/DejaVuSans.ttf"
+    for file, rights, what in ((program_file, 0o644, "may not be run"), (fonts, 0, "may not be read")):
+        before = file.stat().st_mode & 0o777
+        file.chmod(rights)
+        check_line(file, what)
+        file.chmod(before)
     files = tree / "share/grainreel/files"
     text = files.read_text()
     files.write_text(text[:len(text) // 2])

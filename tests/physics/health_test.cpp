@@ -58,6 +58,54 @@ TEST_F(HealthCheck, StopsAtAnOverlapWithAWall) {
     EXPECT_THAT(complaint(), HasSubstr("overlaps the floor by 0.40"));
 }
 
+// Twice what the plan expects, or a tenth of a radius, or, where it expects more than that, what it expects.
+TEST(HealthLimitsTest, TellFromTwiceThePlanOn) {
+    const auto told = [](double planned) {
+        HealthLimits limits;
+        limits.planned = planned;
+        return limits.told();
+    };
+    EXPECT_DOUBLE_EQ(told(0.02), 0.04);
+    EXPECT_DOUBLE_EQ(told(0.08), 0.1);
+    EXPECT_DOUBLE_EQ(told(0.2), 0.2);
+}
+
+TEST_F(HealthCheck, FindsTheContactThatOverlapsMost) {
+    limits.planned = 0.04;
+    w.grains.place[1].position = Vec3(0.7 * kRadius, 0, 0.8 * kRadius);
+    w.grains.place[0].position = Vec3(0.7 * kRadius, 1.9 * kRadius, 0.95 * kRadius);
+    w.start();
+    const DeepestContact deepest = check_state(limits, w.around, w.grains, *w.loop, 1234);
+    EXPECT_NEAR(deepest.share, 0.2, 1e-12);
+    EXPECT_EQ(deepest.grain, 1);
+    EXPECT_EQ(deepest.other, "the floor");
+    EXPECT_EQ(deepest.step, 1234);
+    EXPECT_THAT(overlap_text(limits, deepest), tells({"grain 1 (big)", "the floor", "0.2 of",
+                                                      "0.04 are planned", "contact.wall.stiffness"}));
+    limits.planned = 0.11;
+    EXPECT_NE(overlap_text(limits, deepest), "");
+    limits.planned = 0.25;
+    EXPECT_EQ(overlap_text(limits, deepest), "");
+}
+
+// A stiffer floor is no help where a wall presses; so the wall is named.
+TEST_F(HealthCheck, NamesTheWallThatPresses) {
+    limits.planned = 0.04;
+    Face plate = floor_face();
+    plate.name = "plate";
+    plate.point = Vec3(0, 0, 1.7 * kRadius);
+    plate.normal = Vec3(0, 0, -1);
+    plate.body.number = 2;
+    plate.body.velocity = Vec3(0, 0, -0.01);
+    w.around.faces.push_back(plate);
+    w.grains.place[0].position = Vec3(10 * kRadius, 0, 0.8 * kRadius);
+    w.grains.place[1].position = Vec3(0, 0, 0.8 * kRadius);
+    w.start();
+    const DeepestContact deepest = check_state(limits, w.around, w.grains, *w.loop, 0);
+    EXPECT_EQ(deepest.other, "the floor");
+    EXPECT_THAT(overlap_text(limits, deepest), tells({"the plate moves", "let it stop", "diameter before"}));
+}
+
 TEST_F(HealthCheck, StopsAtWhatIsNoNumber) {
     w.start();
     w.grains.motion[w.index_of(1)].velocity.y() = NAN;

@@ -1,4 +1,4 @@
-// Tests of the bed in the page, read back in the form that bed_frames.hpp describes.
+// Tests of the bed in the page, read back in the form that page_bed.hpp describes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <libdeflate.h>
@@ -112,9 +112,9 @@ std::vector<std::map<int, Grain>> read_back(const PageBed& bed) {
 
 constexpr std::size_t plenty = 100'000'000;  // bytes
 
-TEST(BedFrames, PlacesAreWithinTheStatedErrorForEveryGrainOfTenMoments) {
+TEST(PageBed, PlacesAreWithinTheStatedErrorForEveryGrainOfTenMoments) {
     const std::vector<State> frames = random_frames(10, 200);
-    const PageBed bed = bed_frames(MadeRun(frames), plenty);
+    const PageBed bed = page_bed(MadeRun(frames), plenty);
     ASSERT_EQ(bed.moments.size(), 10u);
     const auto read = read_back(bed);
     const Vec3 most = bed.error() * (1 + 1e-9);
@@ -134,7 +134,7 @@ TEST(BedFrames, PlacesAreWithinTheStatedErrorForEveryGrainOfTenMoments) {
 }
 
 // Bytes are even in the logarithm: half a step of (1e5)^(1/253) is 2.3 %.
-TEST(BedFrames, SpeedsAreWithinTheStatedError) {
+TEST(PageBed, SpeedsAreWithinTheStatedError) {
     const double step = std::pow(1e5, 1 / 253.0);
     EXPECT_LT(std::sqrt(step) - 1, 0.0231);
     for (double speed = 1e-5; speed <= 1; speed *= 1.07) {
@@ -149,10 +149,10 @@ TEST(BedFrames, SpeedsAreWithinTheStatedError) {
 }
 
 // The scale of all moments follows the fastest grain of all, which is in the first moment here.
-TEST(BedFrames, SpeedsAreByTheFastestGrainOfAllMoments) {
+TEST(PageBed, SpeedsAreByTheFastestGrainOfAllMoments) {
     std::vector<State> frames = random_frames(3, 20);
     frames[0].velocity[4] = Vec3(3, 0, 4);
-    const PageBed bed = bed_frames(MadeRun(frames), plenty);
+    const PageBed bed = page_bed(MadeRun(frames), plenty);
     EXPECT_EQ(bed.highest_speed, 5);
     const auto read = read_back(bed);
     for (std::size_t k = 0; k < 3; ++k)
@@ -161,7 +161,7 @@ TEST(BedFrames, SpeedsAreByTheFastestGrainOfAllMoments) {
                       speed_byte(frames[k].velocity[i].norm(), 5 / 1e5, 5));
 }
 
-TEST(BedFrames, GrainsThatComeAndGoAreAbsentMeanwhile) {
+TEST(PageBed, GrainsThatComeAndGoAreAbsentMeanwhile) {
     std::vector<State> frames = random_frames(3, 2);
     const auto take_out = [](State& frame, std::size_t i) {
         const auto at = static_cast<std::ptrdiff_t>(i);
@@ -173,7 +173,7 @@ TEST(BedFrames, GrainsThatComeAndGoAreAbsentMeanwhile) {
     };
     take_out(frames[0], 1);
     take_out(frames[2], 0);
-    const PageBed bed = bed_frames(MadeRun(frames), plenty);
+    const PageBed bed = page_bed(MadeRun(frames), plenty);
     ASSERT_EQ(bed.grains, 2u);
     const auto read = read_back(bed);
     EXPECT_TRUE(read[0].at(0).present && read[1].at(0).present && read[1].at(10).present &&
@@ -182,14 +182,14 @@ TEST(BedFrames, GrainsThatComeAndGoAreAbsentMeanwhile) {
 }
 
 // Frames have no contact numbers, like those of earlier versions.
-TEST(BedFrames, ContactsAreThoseThatPushWallsIncluded) {
+TEST(PageBed, ContactsAreThoseThatPushWallsIncluded) {
     const std::vector<State> frames = random_frames(2, 3);
     PageContacts contacts;
     contacts.touches = [](std::size_t index) -> std::optional<std::vector<Link>> {
         if (index == 1) return std::nullopt;
         return std::vector<Link>{{0, 10, 0.5}, {10, -1, 0.25}, {10, 20, 0.0}};
     };
-    const PageBed bed = bed_frames(MadeRun(frames), plenty, kNoPageProgress, contacts);
+    const PageBed bed = page_bed(MadeRun(frames), plenty, kNoPageProgress, contacts);
     EXPECT_EQ(bed.counted, 1u);
     const auto read = read_back(bed);
     EXPECT_EQ(read[0].at(0).contacts, 1);
@@ -198,10 +198,10 @@ TEST(BedFrames, ContactsAreThoseThatPushWallsIncluded) {
     EXPECT_EQ(read[1].at(10).contacts, 255);  // not known
 }
 
-TEST(BedFrames, ContactNumbersOfTheFramesAreTaken) {
+TEST(PageBed, ContactNumbersOfTheFramesAreTaken) {
     std::vector<State> frames = random_frames(1, 3);
     frames[0].contact_number = {7, 0, 300};
-    const PageBed bed = bed_frames(MadeRun(frames), plenty);
+    const PageBed bed = page_bed(MadeRun(frames), plenty);
     EXPECT_EQ(bed.counted, 1u);
     const auto read = read_back(bed);
     EXPECT_EQ(read[0].at(0).contacts, 7);
@@ -209,15 +209,15 @@ TEST(BedFrames, ContactNumbersOfTheFramesAreTaken) {
     EXPECT_EQ(read[0].at(20).contacts, 254);  // the largest number that a byte can express
 }
 
-TEST(BedFrames, KeyMomentsAreThereWithTheirPairsWhateverElseIsLeftOut) {
+TEST(PageBed, KeyMomentsAreThereWithTheirPairsWhateverElseIsLeftOut) {
     const std::vector<State> frames = random_frames(101, 300);
     PageContacts contacts;
     contacts.keys = {3, 50, 77};
     contacts.touches = [](std::size_t index) -> std::optional<std::vector<Link>> {
         return std::vector<Link>{{0, 10, 0.5 + static_cast<double>(index)}, {2990, -2, 0.25}, {0, 5, 1.0}};
     };
-    const std::size_t all = bed_frames(MadeRun(frames), plenty).packed.size();
-    const PageBed bed = bed_frames(MadeRun(frames), all / 8, kNoPageProgress, contacts);
+    const std::size_t all = page_bed(MadeRun(frames), plenty).packed.size();
+    const PageBed bed = page_bed(MadeRun(frames), all / 8, kNoPageProgress, contacts);
     EXPECT_LE(bed.bytes(), all / 8);
     EXPECT_LT(bed.moments.size(), 20u);
     ASSERT_EQ(bed.forces.moments.size(), 3u);
@@ -228,10 +228,10 @@ TEST(BedFrames, KeyMomentsAreThereWithTheirPairsWhateverElseIsLeftOut) {
     EXPECT_EQ(bed.forces.highest, 77.5);
 }
 
-TEST(BedFrames, KeepsEvenlySpreadMomentsThatFitFirstAndLastAmongThem) {
+TEST(PageBed, KeepsEvenlySpreadMomentsThatFitFirstAndLastAmongThem) {
     const std::vector<State> frames = random_frames(101, 300);
-    const std::size_t all = bed_frames(MadeRun(frames), plenty).packed.size();
-    const PageBed bed = bed_frames(MadeRun(frames), all / 4);
+    const std::size_t all = page_bed(MadeRun(frames), plenty).packed.size();
+    const PageBed bed = page_bed(MadeRun(frames), all / 4);
     EXPECT_LE(bed.packed.size(), all / 4);
     EXPECT_EQ(bed.all_moments, 101u);
     ASSERT_GT(bed.moments.size(), 15u);
@@ -240,12 +240,12 @@ TEST(BedFrames, KeepsEvenlySpreadMomentsThatFitFirstAndLastAmongThem) {
     const double mean = frames.back().time / static_cast<double>(bed.moments.size() - 1);
     for (std::size_t k = 1; k < bed.moments.size(); ++k)
         EXPECT_NEAR(bed.moments[k].time - bed.moments[k - 1].time, mean, period);
-    EXPECT_EQ(bed_frames(MadeRun(frames), 1).moments.size(), 1u);
+    EXPECT_EQ(page_bed(MadeRun(frames), 1).moments.size(), 1u);
 }
 
 // A byte covers the film's range, and bands have the byte of their middle. A grain that was not there at the
 // film's start has 0.
-TEST(BedFrames, HaveTheFilmsColours) {
+TEST(PageBed, HaveTheFilmsColours) {
     std::vector<State> frames = random_frames(3, 40);
     frames[2].id.push_back(1000);
     frames[2].species.push_back(0);
@@ -261,7 +261,7 @@ TEST(BedFrames, HaveTheFilmsColours) {
         FilmColours film(scene, run, Clock(), start);
         PageContacts beside;
         beside.film = &film;
-        return read_back(bed_frames(run, plenty, kNoPageProgress, beside));
+        return read_back(page_bed(run, plenty, kNoPageProgress, beside));
     };
     const auto speeds = bytes_of(GrainValue::speed, 0.5, 0),
                heights = bytes_of(GrainValue::start_height, 0.2, period);
@@ -281,7 +281,7 @@ TEST(BedFrames, HaveTheFilmsColours) {
 }
 
 // On a logarithmic scale equal ratios have equal distances, as on the film's colour bar.
-TEST(BedFrames, HaveTheColoursOfALogarithmicScale) {
+TEST(PageBed, HaveTheColoursOfALogarithmicScale) {
     const std::vector<State> frames = random_frames(2, 40);
     FilmedScene scene;
     scene.film.shows.colour.by = GrainValue::speed;
@@ -291,7 +291,7 @@ TEST(BedFrames, HaveTheColoursOfALogarithmicScale) {
     FilmColours film(scene, run, Clock(), 0);
     PageContacts beside;
     beside.film = &film;
-    const auto read = read_back(bed_frames(run, plenty, kNoPageProgress, beside));
+    const auto read = read_back(page_bed(run, plenty, kNoPageProgress, beside));
     for (std::size_t k = 0; k < frames.size(); ++k)
         for (std::size_t i = 0; i < frames[k].size(); ++i) {
             const double share = std::log(frames[k].velocity[i].norm() / 0.001) / std::log(500);
@@ -301,7 +301,7 @@ TEST(BedFrames, HaveTheColoursOfALogarithmicScale) {
 }
 
 // The displacement of a grain since a moment a period earlier, if there is such a moment.
-TEST(BedFrames, HaveWaysOverAPeriodWhereTheMomentBeforeIsKept) {
+TEST(PageBed, HaveWaysOverAPeriodWhereTheMomentBeforeIsKept) {
     std::vector<State> frames = random_frames(3, 5);
     FilmedScene scene;
     scene.drive.present = true;
@@ -316,7 +316,7 @@ TEST(BedFrames, HaveWaysOverAPeriodWhereTheMomentBeforeIsKept) {
     FilmColours film(scene, run, clock, 0);
     PageContacts beside;
     beside.film = &film;
-    const PageBed bed = bed_frames(run, plenty, kNoPageProgress, beside);
+    const PageBed bed = page_bed(run, plenty, kNoPageProgress, beside);
     EXPECT_EQ(bed.film_coloured, 2u);
     const auto read = read_back(bed);
     for (std::size_t i = 0; i < 5; ++i) {
@@ -327,7 +327,7 @@ TEST(BedFrames, HaveWaysOverAPeriodWhereTheMomentBeforeIsKept) {
     }
 }
 
-TEST(BedFrames, OfTooManyGrainsThoseNearestToTheMiddleAreKept) {
+TEST(PageBed, OfTooManyGrainsThoseNearestToTheMiddleAreKept) {
     const auto extra = static_cast<std::int32_t>(kMostGrainsOnPage) + 50;
     std::vector<State> frames(1);
     for (std::int32_t id = 0; id < extra; ++id) {
@@ -338,7 +338,7 @@ TEST(BedFrames, OfTooManyGrainsThoseNearestToTheMiddleAreKept) {
                                         0);  // the grains that come last are nearest
         frames[0].velocity.emplace_back(0, 0, 0);
     }
-    const PageBed bed = bed_frames(MadeRun(frames), plenty);
+    const PageBed bed = page_bed(MadeRun(frames), plenty);
     EXPECT_EQ(bed.grains, kMostGrainsOnPage);
     EXPECT_EQ(bed.all_grains, static_cast<std::size_t>(extra));
     const auto read = read_back(bed);

@@ -8,9 +8,12 @@
 #include "engine/base/numbers.hpp"
 #include "engine/plan/plan.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
+
+using test::tells;
 
 std::string complaint(const std::string& text, const Assignments& sets = {}) {
     try {
@@ -39,6 +42,19 @@ TEST(Bounds, APeriodOfTwoAndAHalfDiameters) {
     }
     EXPECT_THAT(complaint(periodic, {"container.depth=4.99 mm"}),
                 testing::HasSubstr("too short to be periodic"));
+}
+
+// Along x a plane must go on at the boundary of the period.
+TEST(Bounds, APlaneAlongAPeriod) {
+    const auto with_plane = [](const std::string& text, const char* normal) {
+        return complaint(fmt::format("{}\n[[wall]]\npoint = [0, 0, 0.001]\nnormal = {}\n", text, normal));
+    };
+    for (const char* leans : {"[0.6, 0, 0.8]", "[1, 0, 0]", "[-0.002, 0, 1]"}) {
+        EXPECT_THAT(with_plane(periodic, leans), tells({"'normal'", "leans along x", "periodic_depth"}))
+            << leans;
+        EXPECT_EQ(with_plane(box_text, leans), "") << leans;
+    }
+    EXPECT_EQ(with_plane(periodic, "[0, -0.6, 0.8]"), "");
 }
 
 TEST(Bounds, GrainsThatJustFit) {

@@ -145,6 +145,13 @@ TEST(Keys, NearestKeyForgivesSwapsAndSlips) {
     EXPECT_EQ(advice_for_unknown_key("container.slantheight", filmed_scene_keys()),
               "did you mean 'slant_height'?");
     EXPECT_EQ(advice_for_unknown_key("film.camera.quality", filmed_scene_keys()), "it belongs in [film]");
+    // The gamma of a contact is something else.
+    for (const char* drive : {"drive", "drive.stage[0]"})
+        for (const char* name : {"gamma", "Gamma", "Γ", "acceleration"})
+            EXPECT_EQ(advice_for_unknown_key(fmt::format("{}.{}", drive, name), filmed_scene_keys()),
+                      "did you mean 'g_level'?")
+                << drive << " " << name;
+    EXPECT_EQ(advice_for_unknown_key("species[0].gamma", filmed_scene_keys()), "it belongs in [contact]");
 }
 
 TEST(Keys, TablesAndArraysOfTables) {

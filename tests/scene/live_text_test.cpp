@@ -34,6 +34,8 @@ TEST(LiveText, ShowsValuesInTheirUnits) {
     EXPECT_EQ(shown("{lacey} {unlike_neighbours}", std::nan("")),
               "– –");  // the measure is not defined for this bed
     EXPECT_EQ(shown("{big_above_small} {big_in_top_quarter}", 0.5), "0.5 0.5");
+    // A unit that the name does not have.
+    EXPECT_EQ(shown("{outflow_rate} {outflow_rate:g/s} {outflow}", 0.0025), "0.0025 kg/s 2.5 g/s 0.0025 kg");
 }
 
 TEST(LiveText, SaysWhatIsWrong) {
@@ -49,6 +51,7 @@ TEST(LiveText, SaysWhatIsWrong) {
     EXPECT_THAT(complaint("{lacey"), testing::HasSubstr("a { without its }"));
     EXPECT_THAT(complaint("{lacey:m}"), testing::HasSubstr("pure number"));
     EXPECT_THAT(complaint("{kinetic:mm}"), testing::HasSubstr("energy"));
+    EXPECT_THAT(complaint("{outflow_rate:mm}"), testing::HasSubstr("mass flow"));
     EXPECT_THAT(complaint("{step}"), testing::HasSubstr("no column"));
 }
 

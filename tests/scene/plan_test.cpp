@@ -341,7 +341,7 @@ TEST(PlanWarnings, WordForWord) {
         return warnings(wedge_text, sets);
     };
     EXPECT_THAT(of("drive.g_level=0.9"),
-                tells_only({"test.toml:23:2", "gamma is 0.9", "below 1", "raise g_level"}));
+                tells_only({"test.toml:23:2", "g_level is 0.9", "below 1", "raise g_level"}));
     EXPECT_THAT(of("drive.ramp=50"),
                 tells_only({"--set drive.ramp", "2.5 s", "run of 2 s", "shorten the ramp"}));
     EXPECT_THAT(

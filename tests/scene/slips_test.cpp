@@ -71,7 +71,7 @@ TEST(Slips, OfTheDrive) {
     EXPECT_THAT(warnings({"drive.frequency=20 kHz"}), HasSubstr("did you mean \"20 Hz\"?"));
     const double shaken = 2 * std::numbers::pi * 20;
     EXPECT_THAT(warnings({"drive.amplitude=10 cm"}),
-                HasSubstr(fmt::format("gamma is {:.4g}, with 20 Hz and an amplitude of 0.1 m",
+                HasSubstr(fmt::format("g_level is {:.4g}, with 20 Hz and an amplitude of 0.1 m",
                                       0.1 * shaken * shaken / 10)));
 }
 

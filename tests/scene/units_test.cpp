@@ -96,7 +96,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"1 000 mm", Dimension::length,
             "must be a length, but \"1 000 mm\" has the unknown unit \"000 mm\"; write for example \"5 mm\""},
         Bad{"1,5 mm", Dimension::length,
-            "must be a length, but \"1,5 mm\" has the unknown unit \",5 mm\"; write for example \"5 mm\""},
+            "must be a length, but \"1,5 mm\" has a comma in its number; write \"1.5 mm\""},
+        Bad{"0,5", Dimension::number,
+            "must be a plain number, but \"0,5\" has a comma in its number; write 0.5"},
         Bad{"5 mm @ 3", Dimension::length,
             "must be a length, but \"5 mm @ 3\" has the unknown unit \"mm @ 3\"; write for example \"5 "
             "mm\""}));

@@ -9,6 +9,7 @@ key has. Each block of TOML on the pages EXAMPLES, put into a small scene, must 
 `film.KEY=VALUE` of the gallery. --list prints the keys that only guides show.
 """
 import collections
+import concurrent.futures
 import os
 import pathlib
 import re
@@ -157,10 +158,11 @@ def write_in_mm(stl, to):
     to.write_bytes(bytes_)
 
 
-def check(program, folder, text, sets=()):
-    (folder / "scene.toml").write_text(text)
+def check(program, folder, number, text, sets=()):
+    scene = f"scene_{number}.toml"
+    (folder / scene).write_text(text)
     options = [word for one in sets for word in ("--set", one)]
-    done = subprocess.run([program, "check", "scene.toml", "--size", "160x90", *options], cwd=folder, capture_output=True, text=True, check=False,
+    done = subprocess.run([program, "check", scene, "--size", "160x90", *options], cwd=folder, capture_output=True, text=True, check=False,
                           env={**os.environ, "XDG_CACHE_HOME": str(folder / "cache"), "LC_ALL": "C.UTF-8"})
     return done.stderr.strip().splitlines()[-1] if done.returncode != 0 else ""
 
@@ -168,21 +170,21 @@ def check(program, folder, text, sets=()):
 def faults_of_examples(program, folder):
     write_in_mm(ROOT / "scenes/meshes/drum.stl", folder / "drum.stl")
     write_in_mm(ROOT / "scenes/meshes/gate.stl", folder / "plate.stl")
-    count, faults = 0, []
+    examples = []  # where it stands, what stands there, the scene, assignments
     for page in EXAMPLES:
         for kind, block in BLOCK.findall((GUIDES / page).read_text()):
-            if kind != "toml":
-                continue
-            count += 1
-            if fault := check(program, folder, whole_scene(block)):
-                faults.append(f"docs/guide/{page}: {fault}\n{block}")
+            if kind == "toml":
+                examples.append((page, block, whole_scene(block), ()))
     shipped = (ROOT / "scenes/wedge_segregation.toml").read_text()
     for span in re.findall(r"`((?:film\.[^`]*=)[^`]*)`", (GUIDES / "gallery.md").read_text()):
         sets = [f"{path}={value}" for path, value in ASSIGNED.findall(span) if value]
-        count += 1
-        if fault := check(program, folder, shipped, sets):
-            faults.append(f"docs/guide/gallery.md: {fault}\n{span}")
-    return count, faults
+        examples.append(("gallery.md", span, shipped, sets))
+    # A check mostly waits, so several run side by side. The first makes the caches for the others.
+    check(program, folder, 0, shipped)
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        faults = pool.map(lambda k: check(program, folder, k + 1, *examples[k][2:]), range(len(examples)))
+    return len(examples), [f"docs/guide/{page}: {fault}\n{words}"
+                           for (page, words, _, _), fault in zip(examples, faults) if fault]
 
 
 def main():

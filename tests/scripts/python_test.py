@@ -96,6 +96,14 @@ def check_run(program):
     units = {name: measures[name].attrs["units"] for name in measures.variables}
     expect(units["kinetic_J"] == "J" and units["time"] == "s" and units["lacey"] == "1" and
            units["big_height_m"] == "m" and units["drive_frequency_Hz"] == "Hz", f"units are {units}")
+    # The units of all columns are those of the documentation.
+    written = {"N m": "N.m", "degrees": "degree", "turns, 0 to 1": "turn", "periods": "1"}
+    table = (ROOT / "docs/reference/scenes.md").read_text().split("table of columns: ")[1]
+    rows = re.findall(r"^\| `(\w[\w.]*)`[^|]* \| ([^|]+) \|", table, re.M)
+    expect(len(rows) > 40, f"{len(rows)} columns are documented")
+    for name, unit in rows:
+        expect("," in unit and unit not in written or grainreel._unit_of(name) == written.get(unit, unit),
+               f"the unit of {name} is {grainreel._unit_of(name)}, and {unit} in the documentation")
     trajectory = run.trajectory
     expect(trajectory.coordinates.dims == ("frame", "atom", "spatial"), f"dims: {trajectory.coordinates.dims}")
     expect(trajectory.coordinates.attrs["units"] == "m" and trajectory.time.attrs["units"] == "s", "units of frames")

@@ -87,6 +87,7 @@ class AmberFile : public RawFile {
     const AmberVariable* find(const std::string& name) const;
     const AmberVariable& places() const { return variables_[places_]; }
     [[noreturn]] void refuse_without_frames() const;
+    [[noreturn]] void refuse_as_not_amber(const char* what) const;
     // The numbers of the first `grains` grains in a frame, as in the file and not scaled.
     std::vector<double> numbers(const AmberVariable& variable, std::size_t frame, std::size_t grains) const;
     std::size_t grains_of(std::size_t frame) const;
@@ -133,11 +134,18 @@ AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), netcdf_(N
     find_units();
 }
 
+// what: what the file lacks of the AMBER convention.
+void AmberFile::refuse_as_not_amber(const char* what) const {
+    if (netcdf_.has_group("h5md"))
+        throw UserError(fmt::format("{}: is H5MD, which is not read; write a dump, XYZ, GSD or AMBER NetCDF",
+                                    file_.string()));
+    throw UserError(fmt::format("{}: is {}, but {}, as the AMBER convention says", file_.string(),
+                                is_hdf5(file_) ? "HDF5" : "NetCDF", what));
+}
+
 void AmberFile::find_dimensions() {
     constexpr std::uint64_t most_packing = 1100;  // the most bytes that zlib makes of one
-    if (!netcdf_.has_dimension("atom"))
-        throw UserError(fmt::format("{}: is NetCDF, but has no dimension atom, as the AMBER convention says",
-                                    file_.string()));
+    if (!netcdf_.has_dimension("atom")) refuse_as_not_amber("has no dimension atom");
     grains_ = netcdf_.length("atom");
     if (netcdf_.has_dimension("frame")) {
         declared_ = netcdf_.length("frame");
@@ -156,10 +164,7 @@ void AmberFile::find_variables() {
     const AmberVariable* places = find("coordinates");
     if (!places) places = find("unwrapped_coordinates");
     if (!places || !places->per_grain || places->components > 3 || places->components < 2)
-        throw UserError(
-            fmt::format("{}: is NetCDF, but has no variable coordinates of frame, atom and spatial, "
-                        "as the AMBER convention says",
-                        file_.string()));
+        refuse_as_not_amber("has no variable coordinates of frame, atom and spatial");
     places_ = static_cast<std::size_t>(places - variables_.data());
     if (!places->per_frame) frames_ = declared_ = 1;
 }

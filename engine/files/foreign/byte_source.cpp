@@ -90,7 +90,7 @@ Packing packing_of(const FileBytes& file) {
         if (head.starts_with(packing.magic) && really(packing, head))
             throw UserError(fmt::format("{0}: packed with {1}, which is not read; unpack it first: {2} {3}",
                                         shown(file.path()), packing.name, packing.remedy,
-                                        file.path().filename().string()));
+                                        shell_word(file.path().filename().string())));
     return Packing::none;
 }
 
@@ -123,11 +123,14 @@ FileStart unpacked_head(const fs::path& file) {
 }
 
 std::string all_bytes(const fs::path& file, std::uint64_t most) {
+    constexpr std::uint64_t some = std::uint64_t{1} << 20, many = std::uint64_t{1} << 26;
     const std::unique_ptr<ByteSource> source = open_bytes(file);
     const std::uint64_t on_disk = FileBytes(file).state().size;
+    const bool packed = packing_of(file) != Packing::none;
+    const auto piece = static_cast<std::size_t>(packed ? some : std::min(on_disk + 1, many));
     std::string all;
-    std::size_t piece =
-        static_cast<std::size_t>(std::min<std::uint64_t>(on_disk + 1, std::uint64_t{1} << 26));
+    if (packed && most <= many)
+        all.reserve(static_cast<std::size_t>(most) + piece);  // no copy while it grows
     while (true) {
         const std::size_t had = all.size();
         all.resize(had + piece);
@@ -138,7 +141,6 @@ std::string all_bytes(const fs::path& file, std::uint64_t most) {
                 fmt::format("{}: holds more than {} MB, which is the most that is read of such a file",
                             shown(file), most >> 20));
         if (got < piece) return all;
-        piece = std::max(piece, std::min(all.size(), std::size_t{1} << 26));
     }
 }
 
@@ -155,7 +157,10 @@ FileBytes::FileBytes(const fs::path& file) : path_(file) {
     // O_NONBLOCK keeps open() from waiting if a pipe has just taken the file's name.
     file_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     struct stat about {};
-    if (file_ >= 0 && ::fstat(file_, &about) == 0 && S_ISREG(about.st_mode)) return;
+    if (file_ >= 0 && ::fstat(file_, &about) == 0 && S_ISREG(about.st_mode)) {
+        FilesRead::note(path_, state_of(about));
+        return;
+    }
     const std::string why = file_ < 0 ? std::strerror(errno) : "it is no ordinary file";
     if (file_ >= 0) ::close(file_);
     throw UserError(fmt::format("{}: cannot be opened: {}", shown(file), why));
@@ -169,9 +174,7 @@ FileState FileBytes::state() const {
     struct stat about {};
     if (::fstat(file_, &about) != 0)
         throw UserError(fmt::format("{}: cannot be read: {}", shown(path_), std::strerror(errno)));
-    return {static_cast<std::uint64_t>(about.st_size), static_cast<std::uint64_t>(about.st_dev),
-            static_cast<std::uint64_t>(about.st_ino),
-            std::int64_t{about.st_mtim.tv_sec} * 1000000000 + std::int64_t{about.st_mtim.tv_nsec}};
+    return state_of(about);
 }
 
 std::size_t FileBytes::read_at(std::uint64_t place, char* to, std::size_t size) const {
@@ -315,6 +318,7 @@ class ZstdBytes : public PackedBytes {
     explicit ZstdBytes(std::unique_ptr<FileBytes> file)
         : PackedBytes(std::move(file)), stream_(ZSTD_createDStream(), &ZSTD_freeDStream) {
         if (!stream_) throw std::bad_alloc();
+        ZSTD_DCtx_setParameter(stream_.get(), ZSTD_d_windowLogMax, largest_window());
     }
 
   private:
@@ -342,10 +346,19 @@ class ZstdBytes : public PackedBytes {
         return out.pos;
     }
 
+    // The logarithm of the largest window, which is the memory that the head of a file may ask for: 32 MB for
+    // a small file, 128 MB for a larger one.
+    int largest_window() const {
+        constexpr std::uint64_t small = std::uint64_t{2} << 20;  // bytes
+        return packed_size() < small ? 25 : 27;
+    }
+
     [[noreturn]] void refuse(std::size_t result) const {
         if (ZSTD_getErrorCode(result) == ZSTD_error_frameParameter_windowTooLarge)
-            damaged(
-                "packed by zstd --long with a window above 128 MB, which is not read; unpack it by zstd -d");
+            damaged(fmt::format(
+                "packed by zstd --long with a window above {} MB, which is not read; unpack it by "
+                "zstd -d",
+                1 << (largest_window() - 20)));
         damaged(ZSTD_getErrorName(result));
     }
 

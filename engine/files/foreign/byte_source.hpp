@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/base/file_state.hpp"
 #include "engine/files/frames/state_archive.hpp"
 
 namespace grainreel {
@@ -37,16 +38,6 @@ std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& file);
 
 // The whole content of a file, unpacked. Throws UserError where it has more than `most` bytes.
 std::string all_bytes(const std::filesystem::path& file, std::uint64_t most = std::uint64_t{1} << 33);
-
-// Identity and state of a file at the moment when it was looked at.
-struct FileState {
-    std::uint64_t size = 0;
-    std::uint64_t device = 0, inode = 0;
-    std::int64_t changed = 0;  // ns since 1970, the last change of its content
-
-    bool same_file(const FileState& other) const { return device == other.device && inode == other.inode; }
-    bool operator==(const FileState&) const = default;
-};
 
 // An ordinary file that is read at any place. It is not mapped into memory: if another program truncates it
 // meanwhile, reading must end with a message. With a mapped file, a signal would end the process.
@@ -93,6 +84,7 @@ class PackedBytes : public ByteSource {
 
     // Makes sure that there are packed bytes which were not used yet. Returns whether there are any.
     bool fill();
+    std::uint64_t packed_size() const { return file_->state().size; }
     const char* packed() const { return piece_.get() + used_; }
     std::size_t left() const { return held_ - used_; }
     void use(std::size_t bytes) { used_ += bytes; }

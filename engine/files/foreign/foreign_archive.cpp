@@ -55,6 +55,22 @@ bool ForeignArchive::grow() {
     return true;
 }
 
+namespace {
+
+// Throws UserError where the times that a length of a step (s) gives could be those of no run.
+void check_time_step(double step, const std::vector<double>& times) {
+    constexpr double shortest = 1e-20, longest = 1e9;  // s
+    double last = 0;
+    for (const double time : times) last = std::max(last, std::abs(time));
+    if (step < shortest || last > longest)
+        throw UserError(
+            fmt::format("--time-step {:g}: gives times up to {:.3g} s; a step is {:g} s at least, and "
+                        "times are {:g} s at most",
+                        step, last, shortest, longest));
+}
+
+}  // namespace
+
 // Makes the moments, in each of which the time is the step times a constant length. If the files' steps and
 // times do not fit this, steps are counted in ticks of a millionth of the shortest interval.
 void ForeignArchive::list_moments() {
@@ -82,6 +98,11 @@ void ForeignArchive::list_moments() {
         raw_steps_.push_back(stepped ? *raw[k].step : static_cast<std::int64_t>(k));
     }
     world_.time_known = timed || options_.time_step.has_value();
+    if (options_.time_step && !timed) check_time_step(*options_.time_step, times);
+    if (options_.time_step && timed)
+        news_.push_back(
+            fmt::format("{}: says its times, so --time-step has no effect; leave it out", path_.string()));
+    world_.steps_known = stepped;
     std::vector<double> intervals;
     for (std::size_t k = 1; k < times.size(); ++k) intervals.push_back(times[k] - times[k - 1]);
     if (!world_.time_known) {
@@ -164,12 +185,14 @@ bool ForeignArchive::look_at(std::size_t index) {
         first_with_grains_ = index;
     }
     meaning_->add_types(frame, types_);
+    if (meaning_->least_id(frame) == 0) world_.first_id = 0;
     return true;
 }
 
 // Finds out which types there are, how many grains, and what the columns mean.
 void ForeignArchive::survey() {
     const std::size_t frames = moments_.size();
+    world_.first_id = 1;  // until a grain has the id 0
     for (const std::size_t k : looks())
         if (look_at(k) && looks_ == Looks::first) break;
     count_grains();
@@ -219,7 +242,18 @@ void ForeignArchive::survey_contacts() {
         }
         if (step) contacts_at_.emplace(*step, k);
     }
-    has_contacts_ = !contacts_at_.empty();
+    const auto matched =
+        static_cast<std::size_t>(std::count_if(raw_steps_.begin(), raw_steps_.end(), [&](std::int64_t step) {
+            return contacts_at_.contains(step);
+        }));
+    has_contacts_ = matched > 0;
+    const std::string name = contacts_->files().front().string();
+    if (matched == 0)
+        news_.push_back(
+            fmt::format("{}: its contacts are left out: none of its moments is one of the grains", name));
+    else if (matched < frames)
+        news_.push_back(fmt::format("{}: has contacts of {} of the {} frames; the others are shown without",
+                                    name, matched, frames));
 }
 
 // Columns of a dump local may have any names. If they do not tell which grains touch, contacts are left out.
@@ -304,6 +338,11 @@ bool ForeignArchive::take_types(std::size_t index) {
     return more;
 }
 
+std::optional<std::int64_t> ForeignArchive::written_step(std::size_t index) const {
+    if (!world_.steps_known) return std::nullopt;
+    return raw_steps_.at(index);
+}
+
 State ForeignArchive::read(std::size_t index) const {
     State frame = meaning_->frame(raw(index), types_, grains_->place(index));
     const State& moment = moments_.at(index);
@@ -319,13 +358,27 @@ State ForeignArchive::grains(std::size_t index) const {
     return frame;
 }
 
+bool ForeignArchive::keeps_steps() const {
+    for (std::size_t k = 0; k < moments_.size(); ++k)
+        if (written_step(k) != moments_[k].step) return false;
+    return true;
+}
+
+bool ForeignArchive::has_contacts_of(std::size_t index) const {
+    if (!has_contacts_) return false;
+    return contacts_ ? contacts_at_.contains(raw_steps_.at(index)) : grains_->moments()[index].has_contacts;
+}
+
 std::optional<std::vector<Link>> ForeignArchive::touches(std::size_t index) const {
-    if (!has_contacts_) return std::nullopt;
-    if (!contacts_) return touches_of(raw(index), options_, meaning_->units(), grains_->place(index));
-    const auto found = contacts_at_.find(raw_steps_.at(index));
-    if (found == contacts_at_.end()) return std::vector<Link>();
-    return touches_of(contacts_->read(found->second), options_, meaning_->units(),
-                      contacts_->place(found->second));
+    if (!has_contacts_of(index)) return std::nullopt;
+    const auto read = [&](const RawFrame& frame, const std::string& place) {
+        std::optional<std::vector<Link>> all = touches_of(frame, options_, meaning_->units(), place);
+        if (all) contacts_passed_over_ += frame.contacts.rows - all->size();
+        return all;
+    };
+    if (!contacts_) return read(raw(index), grains_->place(index));
+    const std::size_t found = contacts_at_.at(raw_steps_.at(index));
+    return read(contacts_->read(found), contacts_->place(found));
 }
 
 StateSupply ForeignArchive::supply() const {
@@ -364,12 +417,20 @@ void ForeignArchive::decide_velocities() {
     const State before = read(middle);
     take_types(middle + 1);
     const State after = read(middle + 1);
+    constexpr double fastest = 1e6;  // m/s; a run's files hold no larger speeds
+    const double interval = after.time - before.time;
+    const std::optional<WorldCell> box = cell(middle + 1);
     std::size_t near = 0, both = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const std::optional<std::size_t> row = after.row_of(before.id[i]);
         if (!row) continue;
         ++both;
-        near += way(before.position[i], after.position[*row], world_.cell).norm() < 2 * before.radius[i];
+        const double moved = way(before.position[i], after.position[*row], box).norm();
+        near += moved < 2 * before.radius[i];
+        if (options_.time_step && interval > 0 && moved / interval > fastest)
+            throw UserError(
+                fmt::format("--time-step {:g}: with it, grain {} moves at {:.3g} m/s; give a longer one",
+                            *options_.time_step, before.id[i], moved / interval));
     }
     derived_ = both > 0 && static_cast<double>(near) >= 0.95 * static_cast<double>(both);
     news_.push_back(
@@ -385,16 +446,17 @@ void ForeignArchive::derive_velocities(std::size_t index, State& frame) const {
     const bool has_before = index > 0, has_after = index + 1 < moments_.size();
     const State before = has_before ? read(index - 1) : State(),
                 after = has_after ? read(index + 1) : State();
+    const std::optional<WorldCell> box = cell(index);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const std::optional<std::size_t> was = before.row_of(frame.id[i]), will = after.row_of(frame.id[i]);
         Vec3 ways(0, 0, 0);
         double time = 0;
         if (was) {
-            ways += way(before.position[*was], frame.position[i], world_.cell);
+            ways += way(before.position[*was], frame.position[i], box);
             time += frame.time - before.time;
         }
         if (will) {
-            ways += way(frame.position[i], after.position[*will], world_.cell);
+            ways += way(frame.position[i], after.position[*will], box);
             time += after.time - frame.time;
         }
         if (time > 0 && ways.norm() < 4 * frame.radius[i]) frame.velocity[i] = ways / time;

@@ -35,6 +35,7 @@ struct MovingWall {
     TriangleMesh shape;           // m, as it was at its first moment
     std::vector<BodyPose> poses;  // one for each WallMoment, with zero velocities
     bool moves = false;
+    bool is_box = false;          // the sides of the box of the first frame
     std::vector<RawTable> cells;  // for each moment a row for each triangle; empty where there are none
 };
 
@@ -78,7 +79,9 @@ class ForeignArchive final : public StateArchive {
     const std::vector<State>& moments() const override { return moments_; }
     State grains(std::size_t index) const override;
     std::optional<std::vector<Link>> touches(std::size_t index) const override;
-    bool has_contacts_of(std::size_t) const override { return has_contacts_; }
+    bool has_contacts_of(std::size_t index) const override;
+    std::optional<WorldCell> cell(std::size_t index) const override { return meaning_->cell(raw(index)); }
+    std::optional<std::int64_t> written_step(std::size_t index) const override;
     std::vector<std::string> news() const override { return news_; }
 
     // Looks for moments that were written since. Returns whether there is anything new; then the walls may be
@@ -106,6 +109,10 @@ class ForeignArchive final : public StateArchive {
     bool walls_come() const;
     // The name of the format: "LAMMPS text dump".
     const std::string& format() const { return grains_->facts().format; }
+    // Whether State::step is the step of the files in all moments.
+    bool keeps_steps() const;
+    // How many contacts touches() left out so far: between walls, or without a finite force or ids.
+    std::size_t contacts_passed_over() const { return contacts_passed_over_; }
     // Whether velocities are computed from the places of neighbouring moments.
     bool derived_velocities() const { return derived_; }
 
@@ -151,9 +158,11 @@ class ForeignArchive final : public StateArchive {
     std::vector<WallMoment> wall_moments_;
     std::vector<std::vector<std::size_t>> wall_at_;  // for each moment and wall: the number of its pose
     bool has_contacts_ = false, derived_ = false;
+    bool alone_ = false;   // whether a file is read without those of the same kind of name
     bool behind_ = false;  // whether the files have grown and this object has not
     std::size_t first_with_grains_ = 0;
     std::vector<std::string> news_;
+    mutable std::size_t contacts_passed_over_ = 0;
     // The frames that were read last, with their numbers: one, or three in a row where velocities come from
     // the frames beside each. Frame k is in slot k modulo their number.
     mutable std::array<std::optional<std::pair<std::size_t, RawFrame>>, 3> last_;

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/files/foreign/file_groups.hpp"
 
 namespace grainreel {
 
@@ -94,9 +95,16 @@ void ForeignArchive::choose_files() {
         choose_from(files_named(path_.string()));
     } else {
         const FileGroup series = series_of(path_);
-        if (options_.one || series.files.size() == 1) {
+        const bool runs = !options_.one && are_different_runs(series);
+        alone_ = options_.one || runs;
+        if (alone_ || series.files.size() == 1) {
             grains_ = std::make_unique<RawSeries>(std::vector<fs::path>{path_});
-            if (series.files.size() > 1)
+            if (runs)
+                news_.push_back(
+                    fmt::format("{}: is read alone, since the files of '{}' begin with the same "
+                                "moment of the same grains, as those of different runs do",
+                                path_.string(), series.pattern));
+            else if (series.files.size() > 1)
                 news_.push_back(fmt::format("{}: is one of {} numbered files; '{}' is all of them",
                                             path_.string(), series.files.size(), series.pattern));
         } else {
@@ -128,19 +136,39 @@ void ForeignArchive::find_walls() {
 
 // The files that a series has by now: all of its group that lie where the path says.
 std::vector<fs::path> ForeignArchive::files_now(const std::vector<fs::path>& known) const {
+    if (alone_) return known;
     std::error_code ignored;
     const bool many = is_pattern(path_) || fs::is_directory(path_, ignored);
-    if (options_.one && !many) return known;
-    for (FileGroup& group : many ? grouped(files_named(path_.string())) : std::vector{series_of(path_)})
-        if (std::find(group.files.begin(), group.files.end(), known.front()) != group.files.end())
-            return std::move(group.files);
+    for (FileGroup& group : many ? grouped(files_named(path_.string())) : std::vector{series_of(path_)}) {
+        if (std::find(group.files.begin(), group.files.end(), known.front()) == group.files.end()) continue;
+        const bool more = group.files.size() > known.size();
+        return more && !is_pattern(path_) && are_different_runs(group) ? known : std::move(group.files);
+    }
     return known;
 }
+
+namespace {
+
+// The groups of files, with each file by itself where those of a group are of different runs.
+std::vector<FileGroup> runs_apart(std::vector<FileGroup> groups) {
+    std::vector<FileGroup> apart;
+    for (FileGroup& group : groups) {
+        if (!are_different_runs(group)) {
+            apart.push_back(std::move(group));
+            continue;
+        }
+        for (fs::path& file : group.files) apart.push_back({file.string(), {file}});
+    }
+    return apart;
+}
+
+}  // namespace
 
 // If a folder has several series of grains, the longest is taken, because a run is often written in two
 // formats.
 void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
-    const std::vector<FileGroup> groups = grouped(files);
+    // A pattern says itself which files belong together.
+    const std::vector<FileGroup> groups = is_pattern(path_) ? grouped(files) : runs_apart(grouped(files));
     const FileGroup* chosen = nullptr;
     std::vector<const FileGroup*> contacts, walls, others;
     for (const FileGroup& group : groups) {
@@ -160,6 +188,9 @@ void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
     if (chosen == nullptr)
         throw UserError(fmt::format("{}: no file there holds grains that can be read; {} were looked at",
                                     path_.string(), files.size()));
+    for (const FileGroup& group : grouped(files))
+        if (std::find(group.files.begin(), group.files.end(), chosen->files.front()) != group.files.end())
+            alone_ = group.files.size() > chosen->files.size();
     grains_ = std::make_unique<RawSeries>(chosen->files);
     for (const FileGroup* other : others)
         if (!share_files(*chosen, *other))

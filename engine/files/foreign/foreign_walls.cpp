@@ -197,6 +197,7 @@ void ForeignArchive::add_box() {
     box.name = "box";
     box.shape = mesh;
     box.poses = {BodyPose()};
+    box.is_box = true;
     walls_.push_back(std::move(box));
     wall_moments_ = {WallMoment()};
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -37,6 +38,40 @@ UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const
     if (options.units.empty() && facts.length_unit) system.length = *facts.length_unit;
     if (options.units.empty() && facts.time_unit) system.time = *facts.time_unit;
     return system;
+}
+
+// Whether two names differ only in their last letter, as those of the two partners of a contact: id1 and id2,
+// geoA and geoB, i and j.
+bool name_partners(std::string_view one, std::string_view other) {
+    if (one.empty() || one.size() != other.size()) return false;
+    const std::size_t last = one.size() - 1;
+    if (one.substr(0, last) != other.substr(0, last)) return false;
+    constexpr std::string_view pairs[] = {"12", "AB", "ab", "IJ", "ij"};
+    return std::any_of(std::begin(pairs), std::end(pairs),
+                       [&](std::string_view pair) { return one[last] == pair[0] && other[last] == pair[1]; });
+}
+
+bool is_of_contacts(std::string name) {
+    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const char* word : {"force", "contact", "overlap"})
+        if (name.find(word) != std::string::npos) return true;
+    std::erase(name, '_');
+    return name == "fx" || name == "fn" || name == "fnx";
+}
+
+// Throws UserError where a table without places or radii is one of contacts.
+void refuse_contacts(const RawTable& table, const std::string& file) {
+    const auto& columns = table.columns;
+    if (std::none_of(columns.begin(), columns.end(),
+                     [](const auto& one) { return is_of_contacts(one.name); }))
+        return;
+    for (const RawColumn& one : columns)
+        for (const RawColumn& other : columns)
+            if (name_partners(one.name, other.name))
+                throw UserError(fmt::format(
+                    "{}: holds contacts, of {} and {}, and no grains; give the file of the grains, and name "
+                    "this one by --contacts",
+                    file, excerpt(one.name), excerpt(other.name)));
 }
 
 }  // namespace
@@ -123,6 +158,7 @@ void GrainMeaning::find_places(const RawTable& table) {
         }
     }
     flat_ = place_[0] && place_[1] && !place_[2];
+    if (!place_[0] || !place_[1]) refuse_contacts(table, file_);
     if (!place_[0] || !place_[1])
         throw UserError(
             fmt::format("{}: has no columns of places; name them by --columns x=...,y=...,z=...; it has {}",
@@ -154,6 +190,7 @@ void GrainMeaning::find_radius(const RawTable& table) {
         radius_ = column_for("diameter", table, options_, file_);
         is_diameter_ = radius_.has_value();
     }
+    if (!radius_) refuse_contacts(table, file_);
     if (!radius_)
         throw UserError(
             fmt::format("{}: says no radius of its grains; give one by --radius 2mm (or 1=2mm,2=5mm by "
@@ -243,6 +280,12 @@ void GrainMeaning::add_types(const RawFrame& raw, TypeList& types) const {
                             "--columns type=NAME",
                             file_, raw.grains.columns[*type_].name, most));
     }
+}
+
+double GrainMeaning::least_id(const RawFrame& raw) const {
+    if (!id_ || *id_ >= raw.grains.columns.size()) return facts_.first_row_id;
+    const std::vector<double>& ids = raw.grains.columns[*id_].values;
+    return *std::min_element(ids.begin(), ids.end());
 }
 
 std::optional<WorldCell> GrainMeaning::cell(const RawFrame& raw) const {

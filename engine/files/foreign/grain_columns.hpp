@@ -62,6 +62,8 @@ class GrainMeaning {
     State frame(const RawFrame& raw, const TypeList& types, const std::string& place) const;
     // Mean density of each type in kg/m3 from columns of density or mass; NaN where it is not known.
     std::vector<double> densities(const RawFrame& raw, const TypeList& types) const;
+    // The smallest id of a frame with grains.
+    double least_id(const RawFrame& raw) const;
     // The box of a frame in m.
     std::optional<WorldCell> cell(const RawFrame& raw) const;
 

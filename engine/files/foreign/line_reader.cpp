@@ -11,7 +11,7 @@ namespace grainreel {
 namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 19;   // bytes; it fits into a processor's cache
-constexpr std::size_t longest_line = std::size_t{1} << 26;  // bytes
+constexpr std::size_t longest_line = std::size_t{1} << 24;  // bytes
 constexpr std::size_t behind = 64;                          // bytes that may be read after the last line
 
 bool only_blanks(std::string_view text) {
@@ -33,7 +33,7 @@ bool LineReader::fill() {
     }
     if (held_ + behind >= buffer_.size()) {
         if (buffer_.size() > longest_line)
-            refuse_line(file_, number_, "this line is longer than 64 MB; is this a text file?");
+            refuse_line(file_, number_, "this line is longer than 16 MB; is this a text file?");
         buffer_.resize(2 * buffer_.size());
     }
     const std::size_t room = buffer_.size() - behind - held_;

@@ -1,17 +1,16 @@
-// Finds which files belong together, and lists their frames by rising step or time. Files that several
-// processes wrote for the same step are one frame. If a step comes twice because a run was continued, the
-// later one counts.
+// The frames of several files by rising step or time (moment_order.hpp). Files that several processes wrote
+// for the same step are one frame. If a step comes twice because a run was continued, the later one counts.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/base/file_state.hpp"
+#include "engine/files/foreign/moment_order.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/state_archive.hpp"
 
@@ -39,19 +38,18 @@ class RawSeries {
     std::vector<std::string> news() const { return news_; }
 
   private:
-    struct Part {
-        std::size_t file, frame;
-    };
+    using Parts = std::vector<PlacedMoment>;
     // A file as it was when it was looked at.
     struct Looked {
         FileState state;
         std::vector<RawMoment> moments;
     };
-    // Opens a file, unless it is the one that was opened last.
+    // Opens a file, unless it is open. The file stays open until the next call at least.
     RawFile& opened(const std::filesystem::path& file) const;
     Looked look(const std::filesystem::path& file) const;
     void list_moments();
-    void join_equal_steps(std::vector<std::pair<RawMoment, Part>>& all);
+    void tell_of_return(const OrderedMoments::Returned& returned);
+    bool are_parts(const PlacedMoment& one, const PlacedMoment& other) const;
     void tell_of_equal_files();
 
     std::vector<std::filesystem::path> files_;
@@ -59,34 +57,11 @@ class RawSeries {
     const RawFormat* format_ = nullptr;
     RawFacts facts_;
     std::vector<RawMoment> moments_;
-    std::vector<std::vector<Part>> parts_;  // for each moment: the frames that it is made of
+    std::vector<Parts> parts_;  // for each moment: the frames that it is made of
     std::vector<std::string> news_;
-    // Only one file is kept open, because there may be thousands.
-    mutable std::filesystem::path open_file_;
-    mutable std::unique_ptr<RawFile> open_;
+    // The files that are open; the last one was used last. Files with one frame are closed for the next,
+    // because there may be thousands.
+    mutable std::vector<std::pair<std::filesystem::path, std::unique_ptr<RawFile>>> open_;
 };
-
-// Files whose names differ only in one number, by rising number ("dump.2" before "dump.10"); or a single
-// file.
-struct FileGroup {
-    std::string pattern;  // "post/dump.*.vtk", or the name of a single file
-    std::vector<std::filesystem::path> files;
-};
-
-// The last number in a file's name before a suffix of letters: 5000 for "dump.5000.vtk".
-std::optional<std::int64_t> number_in_name(const std::filesystem::path& file);
-
-// The series of a file: all files of its folder whose names differ only in that number. If the name has no
-// number, only the file itself.
-FileGroup series_of(const std::filesystem::path& file);
-
-// All groups of these files, in the order of their patterns. Files in a group are in the order of numbers.
-std::vector<FileGroup> grouped(const std::vector<std::filesystem::path>& files);
-
-// The ordinary files that a pattern (with * ? [...] in the last parts of the path) names. Throws UserError
-// where there are none.
-std::vector<std::filesystem::path> files_of_pattern(const std::filesystem::path& pattern);
-// The ordinary files of a folder without hidden ones.
-std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 
 }  // namespace grainreel

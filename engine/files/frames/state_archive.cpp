@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "engine/base/error.hpp"
+#include "engine/base/typed_time.hpp"
 
 namespace grainreel {
 
@@ -19,6 +20,26 @@ std::size_t StateArchive::nearest(double time) const {
     return time - all[index - 1].time <= all[index].time - time ? index - 1 : index;
 }
 
+namespace {
+
+std::vector<double> times_of(const std::vector<State>& moments) {
+    std::vector<double> times;
+    for (const State& moment : moments) times.push_back(moment.time);
+    return times;
+}
+
+}  // namespace
+
+double StateArchive::step_length() const {
+    const State &one = moments().front(), &other = moments().back();
+    const double steps = static_cast<double>(other.step - one.step);
+    return steps > 0 && other.time > one.time ? (other.time - one.time) / steps : 0;
+}
+
+double StateArchive::room_beside(std::size_t index) const {
+    return grainreel::room_beside(times_of(moments()), index, step_length());
+}
+
 double StateArchive::mean_interval() const {
     const std::vector<State>& all = moments();
     return all.size() < 2 ? 0 : (all.back().time - all.front().time) / static_cast<double>(all.size() - 1);
@@ -26,14 +47,10 @@ double StateArchive::mean_interval() const {
 
 std::vector<std::size_t> StateArchive::between(std::optional<double> from, std::optional<double> to,
                                                std::int64_t every) const {
-    constexpr double hair = 1e-9;  // s: tolerance of times
     std::vector<std::size_t> chosen;
     std::int64_t inside = 0;
-    for (std::size_t k = 0; k < moments().size(); ++k) {
-        const double time = moments()[k].time;
-        if (time < from.value_or(time) - hair || time > to.value_or(time) + hair) continue;
+    for (const std::size_t k : typed_span(times_of(moments()), step_length(), from, to))
         if (inside++ % every == 0) chosen.push_back(k);
-    }
     return chosen;
 }
 

@@ -65,6 +65,14 @@ class StateArchive {
     virtual bool has_contacts_of(std::size_t) const { return false; }
     // What was measured nearest to that moment; nothing where the run has no measures.
     virtual std::optional<MeasuredRow> measured_near(std::size_t) const { return std::nullopt; }
+    // The box of a frame. In files of other programs it may change; elsewhere it is that of the world.
+    virtual std::optional<WorldCell> cell(std::size_t) const { return world().cell; }
+    // The step of a moment as the files have it; none where they have none. There State::step only orders the
+    // moments.
+    virtual std::optional<std::int64_t> written_step(std::size_t index) const {
+        if (!world().steps_known) return std::nullopt;
+        return moments()[index].step;
+    }
     // Number of the moment's frame in the file, from 0. Frames that were left out count too.
     virtual std::size_t place(std::size_t index) const { return index; }
 
@@ -93,7 +101,11 @@ class StateArchive {
     std::size_t nearest(double time) const;
     // Mean time (s) between two moments; 0 for a single one.
     double mean_interval() const;
-    // Indices of one in `every` of the moments from one time (s) to another.
+    // s, the length of a step; 0 where it is not known.
+    double step_length() const;
+    // How far (s) a typed time may lie from a moment and still mean it (engine/base/typed_time.hpp).
+    double room_beside(std::size_t index) const;
+    // Indices of one in `every` of the moments from one typed time (s) to another.
     std::vector<std::size_t> between(std::optional<double> from, std::optional<double> to,
                                      std::int64_t every) const;
     // Throws UserError, with the option's name, for a time (s) outside the run, which ends at `last`. It may

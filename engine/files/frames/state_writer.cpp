@@ -128,7 +128,11 @@ Exported export_frames(const StateArchive& frames, const std::string& format, co
     const std::unique_ptr<StateWriter> writer = frame_writer(format, part.path());
     writer->begin(frames.world(), frames.supply());
     for (std::size_t k = 0; k < wanted.size(); ++k) {
-        const State frame = frames.grains(wanted[k]);
+        State frame = frames.grains(wanted[k]);
+        // Without steps the frames are numbered, for formats that cannot do without a number.
+        frame.step =
+            frames.written_step(wanted[k]).value_or(static_cast<std::int64_t>(frames.place(wanted[k])));
+        writer->cell(frames.cell(wanted[k]));
         const std::optional<std::vector<Link>> touches = frames.touches(wanted[k]);
         if (writer->takes_all())
             if (const std::optional<std::vector<SavedContact>> all = frames.contacts(wanted[k]))
@@ -142,8 +146,13 @@ Exported export_frames(const StateArchive& frames, const std::string& format, co
     if (fs::is_directory(path, error)) fs::remove_all(path, error);
     fs::rename(part.path(), path, error);
     if (error) throw RunError(fmt::format("{}: cannot be made: {}", path.string(), error.message()));
-    return {path, static_cast<std::int64_t>(wanted.size()), bytes_of(path),
-            frames.moments()[wanted.front()].time};
+    Exported made{path, static_cast<std::int64_t>(wanted.size()), bytes_of(path),
+                  frames.moments()[wanted.front()].time};
+    if (choice.at)
+        made.is_asked = std::abs(made.first - *choice.at) <=
+                        std::max(0.51 * frames.step_length(), 1e-5 * std::abs(*choice.at));
+    made.news = writer->news();
+    return made;
 }
 
 }  // namespace grainreel

@@ -36,6 +36,10 @@ class StateWriter {
     // Called before frame() with the contacts of that frame, where the archive knows their points and
     // tangential forces.
     virtual void contacts(const std::vector<SavedContact>&) {}
+    // Called before frame() with the box of that frame, for formats that have one.
+    virtual void cell(const std::optional<WorldCell>&) {}
+    // What the user should know of the file, once it is written.
+    virtual std::vector<std::string> news() const { return {}; }
     // Called before end(). Each of these records of fields.nc is a mean over a span of time in which a frame
     // lies.
     virtual void fields(const FieldsReader&, const std::vector<std::size_t>& /*records*/) {}
@@ -71,7 +75,9 @@ struct Exported {
     std::filesystem::path path;  // file or folder
     std::int64_t frames = 0;
     std::uintmax_t bytes = 0;
-    double first = 0;  // s, time of the first frame
+    double first = 0;      // s, time of the first frame
+    bool is_asked = true;  // with ExportChoice::at: whether that frame is the moment that was asked for
+    std::vector<std::string> news{};
 };
 
 // Throws UserError where `path` exists already (unless `replace`), or the folder around it is missing.

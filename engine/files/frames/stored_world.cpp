@@ -77,6 +77,53 @@ Scene scene_of(const StoredWorld& world) {
     return scene;
 }
 
+namespace {
+
+constexpr double kRight = 90;  // degrees
+
+// The angle between two edges; right where one of them has no length.
+double degrees_between(const Vec3& a, const Vec3& b) {
+    const double lengths = a.norm() * b.norm(), along = a.dot(b);
+    if (!(lengths > 0) || along == 0) return kRight;
+    return math::acos(std::clamp(along / lengths, -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+double cosine(double degrees) {
+    return degrees == kRight ? 0 : math::cos(degrees * std::numbers::pi / 180);
+}
+
+}  // namespace
+
+TrajectoryCell trajectory_cell(const WorldCell& cell) {
+    TrajectoryCell made;
+    made.origin = cell.origin;
+    for (int i = 0; i < 3; ++i) {
+        const auto edge = static_cast<std::size_t>(i);
+        if (cell.periodic[edge]) made.length[i] = cell.edges[edge].norm();
+    }
+    made.angles =
+        Vec3(degrees_between(cell.edges[1], cell.edges[2]), degrees_between(cell.edges[0], cell.edges[2]),
+             degrees_between(cell.edges[0], cell.edges[1]));
+    return made;
+}
+
+// The first edge is along x, and the second has no z (AMBER trajectory convention).
+WorldCell world_cell(const TrajectoryCell& cell) {
+    WorldCell made;
+    made.origin = cell.origin;
+    const double cos_a = cosine(cell.angles[0]), cos_b = cosine(cell.angles[1]),
+                 cos_c = cosine(cell.angles[2]);
+    const double sin_c = std::sqrt(1 - cos_c * cos_c), across = (cos_a - cos_b * cos_c) / sin_c;
+    const std::array<Vec3, 3> along{Vec3(1, 0, 0), Vec3(cos_c, sin_c, 0),
+                                    Vec3(cos_b, across, std::sqrt(1 - cos_b * cos_b - across * across))};
+    for (int i = 0; i < 3; ++i) {
+        const auto edge = static_cast<std::size_t>(i);
+        if (cell.length[i] != 0) made.edges[edge] = cell.length[i] * along[edge];
+        made.periodic[edge] = cell.length[i] > 0;
+    }
+    return made;
+}
+
 StoredWorld world_of(const TrajectoryInfo& info) {
     StoredWorld world;
     world.title = info.title;
@@ -86,13 +133,9 @@ StoredWorld world_of(const TrajectoryInfo& info) {
         species.name = info.species[s];
         if (s < info.facts.densities.size()) species.density = info.facts.densities[s];
     }
-    WorldCell& cell = world.cell.emplace();
-    cell.origin = info.cell_origin;
-    for (int i = 0; i < 3; ++i) {
-        const auto edge = static_cast<std::size_t>(i);
-        cell.edges[edge][i] = info.periodic_length[i];
-        cell.periodic[edge] = info.periodic_length[i] > 0;
-    }
+    world.cell = world_cell(info.cell);
+    world.steps_known = info.steps_known;
+    world.first_id = info.first_id;
     world.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
     for (const std::string& name : info.bodies) world.bodies.push_back({name, {}, {}});
     for (const auto& [body, shape] : info.meshes) world.bodies.at(body).mesh = shape;
@@ -118,13 +161,9 @@ TrajectoryInfo trajectory_info(const StoredWorld& world, const StateSupply& supp
     info.container_turns = world.container_turns;
     info.orientation = supply.orientations;
     info.contact_numbers = supply.contact_numbers;
-    if (world.cell) {
-        info.cell_origin = world.cell->origin;
-        for (int i = 0; i < 3; ++i) {
-            const auto edge = static_cast<std::size_t>(i);
-            if (world.cell->periodic[edge]) info.periodic_length[i] = world.cell->edges[edge].norm();
-        }
-    }
+    if (world.cell) info.cell = trajectory_cell(*world.cell);
+    info.steps_known = world.steps_known;
+    info.first_id = world.first_id;
     info.facts = world.facts;
     const bool known =
         std::all_of(world.species.begin(), world.species.end(),

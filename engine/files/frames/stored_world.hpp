@@ -59,7 +59,9 @@ struct StoredWorld {
     bool traffic = false;              // grains come and go
     bool container_turns = false;      // container and floor: their poses have a rotation
     bool time_known = true;
-    FileFacts facts = {};  // texts for people who read the file
+    bool steps_known = true;  // whether the files have the numbers of steps
+    int first_id = 0;         // 1 where grains are counted from 1
+    FileFacts facts = {};     // texts for people who read the file
 };
 
 // Container, floor, planes, meshes and species of a scene.
@@ -68,6 +70,10 @@ StoredWorld world_of(const Scene& scene);
 // A scene for a world that has none, for code that needs one. It has the species and no container, and it has
 // the meshes if the world has no planes.
 Scene scene_of(const StoredWorld& world);
+
+// The cell of a frame of a trajectory, and back. An edge that is not periodic has the length 0 there.
+TrajectoryCell trajectory_cell(const WorldCell& cell);
+WorldCell world_cell(const TrajectoryCell& cell);
 
 // What the header of a trajectory says of its world, and the header for a trajectory of this world.
 StoredWorld world_of(const TrajectoryInfo& info);

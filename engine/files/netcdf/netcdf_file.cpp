@@ -110,13 +110,20 @@ NetcdfFile NetcdfFile::open_any(const std::filesystem::path& path) {
     if (!is_hdf5(path)) return open(path);
     check_hdf5(path);
     int id = -1;
-    known(nc_open(path.c_str(), NC_NOWRITE, &id), path);
+    if (const int status = nc_open(path.c_str(), NC_NOWRITE, &id); status != NC_NOERR)
+        throw UserError(fmt::format("{}: is HDF5, but the library of NetCDF cannot read it ({})",
+                                    path.string(), nc_strerror(status)));
     return NetcdfFile(path, id, false);
 }
 
 void NetcdfFile::enter(const std::string& group) {
     int id = -1;
     if (nc_inq_grp_ncid(file_id_, group.c_str(), &id) == NC_NOERR) id_ = id;
+}
+
+bool NetcdfFile::has_group(const std::string& group) const {
+    int id = -1;  // the library finds any group in a classic file
+    return is_hdf5(path_) && nc_inq_grp_ncid(file_id_, group.c_str(), &id) == NC_NOERR;
 }
 
 NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept

@@ -54,6 +54,7 @@ class NetcdfFile {
     static NetcdfFile open_any(const std::filesystem::path& path);
     // Reads the variables of this group from now on, where the file has it. Classic files have no groups.
     void enter(const std::string& group);
+    bool has_group(const std::string& group) const;
 
     ~NetcdfFile();
     NetcdfFile(NetcdfFile&& other) noexcept;

@@ -44,6 +44,14 @@ struct TrajectoryMesh {
     TriangleMesh shape;    // at rest, m
 };
 
+// The box of a frame.
+struct TrajectoryCell {
+    Vec3 origin{0, 0, 0};     // m, the lowest corner
+    Vec3 length{0, 0, 0};     // m along each edge, 0 where nothing is periodic
+    Vec3 angles{90, 90, 90};  // degrees, between the second and third edge, first and third, first and second
+    bool operator==(const TrajectoryCell&) const = default;
+};
+
 // What the header of the file says.
 struct TrajectoryInfo {
     std::string title;
@@ -56,10 +64,11 @@ struct TrajectoryInfo {
     bool container_turns = false;        // container and floor turn, and frames have their rotations
     bool orientation = false;
     bool contact_numbers = false;
-    bool checksums = true;          // false in a file of an earlier version, where damage may look like data
-    Vec3 cell_origin{0, 0, 0};      // m
-    Vec3 periodic_length{0, 0, 0};  // m, 0 where nothing is periodic
-    FileFacts facts = {};           // in the info of a file that is read, only the densities
+    bool checksums = true;     // false in a file of an earlier version, where damage may look like data
+    TrajectoryCell cell = {};  // of the first frame, and of all if nobody says otherwise
+    bool steps_known = true;   // false where the steps only number the frames
+    int first_id = 0;          // 1 where grains are counted from 1
+    FileFacts facts = {};      // in the info of a file that is read, only the densities
 };
 
 class TrajectoryWriter {
@@ -83,6 +92,8 @@ class TrajectoryWriter {
     static void write_again(const std::filesystem::path& path, std::size_t frames,
                             const std::filesystem::path& to, TrajectoryInfo info);
 
+    // The box of the frames that follow.
+    void set_cell(const TrajectoryCell& cell);
     // The frame is in the file when this returns, and stays readable if the program is killed. Throws
     // RunError when it could not be written (disk full); earlier frames stay readable.
     void write(const State& frame);
@@ -115,6 +126,7 @@ class TrajectoryReader {
     State read(std::size_t index) const;
     // The frame without its grains, which are most of the work: time, phase and poses only.
     State read_moment(std::size_t index) const;
+    TrajectoryCell cell(std::size_t index) const;
 
   private:
     struct Impl;

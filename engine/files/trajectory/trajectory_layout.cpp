@@ -181,8 +181,8 @@ TrajectoryInfo trajectory_info(const Scene& scene, const Plan& plan, const std::
     info.container_turns = scene.container.turn.has_value();
     info.orientation = scene.keeps_orientations();
     info.contact_numbers = true;
-    info.cell_origin = extent_of(scene).low;
-    if (scene.container.periodic_depth) info.periodic_length.x() = scene.container.depth;
+    info.cell.origin = extent_of(scene).low;
+    if (scene.container.periodic_depth) info.cell.length.x() = scene.container.depth;
     info.facts = file_facts(scene);
     return info;
 }

@@ -159,6 +159,15 @@ inline constexpr std::array label_variables{
     TrajectoryLabel{"cell_spatial", "names of the edges of the periodic cell"},
     TrajectoryLabel{"cell_angular", "names of the angles of the periodic cell"}};
 
+// Attributes that only files made of other programs' frames have: of `step`, where these say no steps, and of
+// `id`, where they count grains from another number than 0.
+inline constexpr const char *kStepsOf = "counts",
+                            *kStepsOfFrames = "frames, for the file that they come from says no steps",
+                            *kFirstId = "first",
+                            *kFromFirst =
+                                "as in the files that the frames come from, which count from "
+                                "`first`; -1 in a place that no grain has had";
+
 inline constexpr const char *frame_checksum = "frame_checksum", *grain_checksum = "grain_checksum";
 
 inline constexpr const char *frame_checksum_about = "XXH64 of the frame's own numbers",

@@ -77,10 +77,19 @@ struct TrajectoryReader::Impl {
         std::istringstream names(file.text_attribute(file.find_variable("type"), "species"));
         for (std::string name; std::getline(names, name);) info.species.push_back(name);
         read_densities();
+        info.steps_known = file.text_attribute(file.find_variable("step"), kStepsOf).empty();
+        info.first_id = file.text_attribute(file.find_variable("id"), kFirstId) == "1" ? 1 : 0;
         info.checksums = file.has_variable(frame_checksum) && file.has_variable(grain_checksum);
         if (frames == 0) return;
-        file.get(file.find_variable("cell_origin"), {0, 0}, {1, 3}, info.cell_origin.data());
-        file.get(file.find_variable("cell_lengths"), {0, 0}, {1, 3}, info.periodic_length.data());
+        info.cell = cell(0);
+    }
+
+    TrajectoryCell cell(std::size_t frame) const {
+        TrajectoryCell cell;
+        file.get(file.find_variable("cell_origin"), {frame, 0}, {1, 3}, cell.origin.data());
+        file.get(file.find_variable("cell_lengths"), {frame, 0}, {1, 3}, cell.length.data());
+        file.get(file.find_variable("cell_angles"), {frame, 0}, {1, 3}, cell.angles.data());
+        return cell;
     }
 
     // "2500 7800 kg m-3" by species; missing in files of earlier versions.
@@ -279,6 +288,11 @@ State TrajectoryReader::read(std::size_t index) const {
     Impl::Moment moment = impl_->read_moment(index);
     impl_->read_grains(index, moment.grains, moment.frame);
     return std::move(moment.frame);
+}
+
+TrajectoryCell TrajectoryReader::cell(std::size_t index) const {
+    GRAINREEL_CHECK(index < impl_->frames);
+    return impl_->cell(index);
 }
 
 State TrajectoryReader::read_moment(std::size_t index) const {

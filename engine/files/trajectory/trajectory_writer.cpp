@@ -87,6 +87,11 @@ void TrajectoryWriter::Impl::define() {
     if (info.orientation) define_variable(orientation_variable, "atom");
     if (info.contact_numbers) define_variable(contact_number_variable, "atom");
     if (info.traffic) define_variable(present_variable, "atom");
+    if (!info.steps_known) file.attribute(variables["step"], kStepsOf, kStepsOfFrames);
+    if (info.first_id != 0) {
+        file.attribute(variables["id"], kFirstId, std::to_string(info.first_id));
+        file.attribute(variables["id"], "comment", kFromFirst);
+    }
     file.attribute(variables["type"], "species", fmt::format("{}", fmt::join(info.species, "\n")));
     if (!info.facts.densities.empty())
         file.attribute(variables["type"], "density",
@@ -173,9 +178,8 @@ void TrajectoryWriter::Impl::write_pose(const State& frame) {
     const int count = static_cast<int>(frame.size());
     for (const double* number : {&frame.time, &frame.cycles, &frame.phase, &step}) put(number, 1);
     put(&count, 1);
-    const Vec3 angles(90, 90, 90);
     for (const Vec3& vector : {frame.container().place, frame.container().velocity, frame.floor().place,
-                               frame.floor().velocity, info.cell_origin, info.periodic_length, angles})
+                               frame.floor().velocity, info.cell.origin, info.cell.length, info.cell.angles})
         put(vector.data(), 3);
     GRAINREEL_CHECK(variable == frame_variables.end());
     if (info.container_turns) write_turn(frame, sum);
@@ -249,7 +253,7 @@ void TrajectoryWriter::Impl::write_grains(const State& f) {
     using Ints = std::vector<int>;
     using Floats = std::vector<float>;
     using Doubles = std::vector<double>;
-    const Vec3& corner = info.cell_origin;
+    const Vec3& corner = info.cell.origin;
     put(Ints{-1}, has_been, [&](std::size_t i, int) { return f.id[i]; });
     put(Ints{-1}, has_been, [&](std::size_t i, int) { return f.species[i] + 1; });
     put(Doubles{kAbsentRadius}, is_here, [&](std::size_t i, int) { return f.radius[i]; });
@@ -344,7 +348,14 @@ void TrajectoryWriter::write_again(const std::filesystem::path& path, std::size_
     const TrajectoryReader reader(path);
     info.contact_numbers = reader.info().contact_numbers;
     TrajectoryWriter writer(to, info);
-    for (std::size_t k = 0; k < frames; ++k) writer.write(reader.read(k));
+    for (std::size_t k = 0; k < frames; ++k) {
+        writer.set_cell(reader.cell(k));
+        writer.write(reader.read(k));
+    }
+}
+
+void TrajectoryWriter::set_cell(const TrajectoryCell& cell) {
+    impl_->info.cell = cell;
 }
 
 void TrajectoryWriter::write(const State& frame) {

@@ -61,7 +61,9 @@ class Outflow final : public Observer {
     static std::vector<ColumnGroup> columns(const Scene& scene) {
         std::vector<ColumnGroup> groups{
             {{{"outflow_kg", "mass that flowed out", Dimension::mass}}, "kg", "since the drive started"},
-            {{{"outflow_rate", "mass flow (kg/s)"}}, "kg/s", "mean mass flow since the row before"}};
+            {{{"outflow_rate", "mass flow", Dimension::mass_flow}},
+             "kg/s",
+             "mean mass flow since the row before"}};
         for (const Species& species : scene.species)
             groups.push_back(
                 {{{column_part(species.name) + "_outflow", "share of " + species.name + " in the outflow"}},

@@ -47,7 +47,7 @@ class WallForces final : public Observer {
                                   "where the grains brake"});
             if (!body.fixed)
                 groups.push_back(
-                    {{{face + "_power_W", "power of " + face}},
+                    {{{face + "_power_W", "power of " + face, Dimension::power}},
                      "W",
                      "of a wall that turns or moves by itself: the work that it gives the grains "
                      "over time, by the impulses of every step since the row before"});

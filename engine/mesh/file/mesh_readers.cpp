@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "engine/base/error.hpp"
+#include "engine/base/file_state.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
@@ -57,6 +58,7 @@ std::string mesh_bytes(const fs::path& file) {
     struct stat about {};
     if (open.file < 0 || ::fstat(open.file, &about) != 0 || !S_ISREG(about.st_mode))
         refuse_file(file, "cannot be read; check its permissions");
+    FilesRead::note(file, state_of(about));
     const auto size = static_cast<std::uint64_t>(about.st_size);
     if (size == 0) refuse_file(file, fmt::format("is empty; {}", what_to_give));
     if (size > largest_mesh_file) refuse_file(file, "is larger than 2 GiB; give a mesh of fewer triangles");

@@ -46,7 +46,9 @@ RunDriver::RunDriver(const Scene& scene, const Plan& plan, ResumePoint point)
       frames_before_(point.frames),
       former_end_(point.reached),
       changed_(point.changed),
-      accepted_(std::move(point.accepted)) {}
+      accepted_(std::move(point.accepted)) {
+    if (point.deepest) simulation_.set_deepest_contact(std::move(*point.deepest));
+}
 
 void RunDriver::keep_former(const FolderLock& folder, bool hands_out, const std::string& program_version) {
     folder_ = &folder;
@@ -228,7 +230,9 @@ std::shared_ptr<State> RunDriver::serve(const Stop& stop) {
 }
 
 void RunDriver::add_measures() {
-    files_->add_measures(simulation_.measures());
+    const Measures now = simulation_.measures();
+    if (now.at("largest_overlap") > simulation_.told_overlap()) simulation_.note_overlap();
+    files_->add_measures(now);
 }
 
 bool RunDriver::ring_due() const {
@@ -294,12 +298,18 @@ std::vector<std::string> RunDriver::packing_warnings() const {
     if (const auto one = settling_warning()) warnings.push_back(*one);
     if (packing_.left > 0)
         warnings.push_back(
-            fmt::format("{}: {} of {} ({:.2g} % of their volume) lay in an exit when the bed was packed, and "
+            fmt::format("{}: {} of {} ({:.3g} % of their volume) lay in an exit when the bed was packed, and "
                         "left at 0 s; "
                         "unless you mean that, move the exit away from the bed",
                         scene_.where(scene_.exits.empty() ? "container.outlet" : "exit[0]"), packing_.left,
                         counted(packing_.left + simulation_.grains(), "grain"), 100 * packing_.left_share));
     return warnings;
+}
+
+std::optional<std::string> RunDriver::overlap_warning() const {
+    const std::string text = simulation_.overlap_text();
+    if (text.empty()) return std::nullopt;
+    return fmt::format("{}: {}", scene_.where("run.overlap"), text);
 }
 
 std::optional<std::string> RunDriver::settling_warning() const {
@@ -360,6 +370,7 @@ void RunDriver::conclude(RunJson& record) const {
     record.state_hash = state_hash_;
     record.final_table = final_table_;
     if (!packed_) return;
+    if (simulation_.deepest_contact().share > 0) record.deepest = simulation_.deepest_contact();
     record.steps = simulation_.step();
     record.simulated = plan_.clock.time(record.steps);
 }

@@ -98,6 +98,8 @@ class RunDriver {
     std::string packing_text() const;
     // Lines about the packing for the user. They are to be asked for before the run goes on.
     std::vector<std::string> packing_warnings() const;
+    // A line about the contact that overlapped far more than planned, if any has.
+    std::optional<std::string> overlap_warning() const;
     // "trajectory.nc (4 frames), measures.csv (30 rows), ..."
     std::string files_text() const;
     // describe() adds to the record what is known when the run begins, and conclude() what is known when it

@@ -37,6 +37,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
     : folder_(folder),
       info_(trajectory_info(scene, plan, program_version)),
       program_version_(program_version),
+      rolls_(plan.rolls()),
       clock_(plan.clock),
       field_times_(plan.fields),
       measures_(folder / "measures.csv", simulation.measured()),
@@ -50,7 +51,7 @@ RunFiles::RunFiles(const std::filesystem::path& folder, const Scene& scene, cons
     trajectory_.emplace(folder / "trajectory.nc", info_);
     if (scene.output.contacts)
         contacts_.emplace(folder / "contacts.nc", scene.title, program_version, info_.facts,
-                          !info_.meshes.empty());
+                          !info_.meshes.empty(), rolls_);
 }
 
 RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& scene, const Plan& plan,
@@ -58,6 +59,7 @@ RunFiles::RunFiles(GoesOn, const std::filesystem::path& folder, const Scene& sce
     : folder_(folder),
       info_(trajectory_info(scene, plan, program_version)),
       program_version_(program_version),
+      rolls_(plan.rolls()),
       clock_(plan.clock),
       field_times_(plan.fields),
       measures_(folder / "measures.csv", simulation.measured(), simulation.step()),
@@ -108,7 +110,7 @@ void RunFiles::keep_film_moments() {
 void RunFiles::keep_key_moments() {
     key_moments_.emplace(folder_ / kKeyMoments, info_);
     key_contacts_.emplace(folder_ / kKeyContacts, info_.title, program_version_, info_.facts,
-                          !info_.meshes.empty());
+                          !info_.meshes.empty(), rolls_);
 }
 
 void RunFiles::keep_key_moments(std::int64_t step) {

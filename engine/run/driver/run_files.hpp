@@ -107,6 +107,7 @@ class RunFiles {
     std::filesystem::path folder_;
     TrajectoryInfo info_;  // for the trajectory, the frames handed out, and the key moments
     std::string program_version_;
+    bool rolls_;  // whether contacts resist rolling
     std::optional<TrajectoryWriter> trajectory_, film_moments_, key_moments_;
     std::optional<ContactsWriter> contacts_, key_contacts_;
     Clock clock_;

@@ -76,6 +76,7 @@ bool SceneJob::work() {
     };
     while (next(go_on)) continue;
     tell_news();
+    if (const auto warning = driver_.overlap_warning()) warn(*warning);
     return desk_.listener.stop_signal() == 0;
 }
 
@@ -116,16 +117,18 @@ bool SceneJob::pack() {
     if (!driver_.pack(watcher)) return false;
     if (const std::string found = driver_.found_packing_text(); !found.empty()) desk_.listener.info(found);
     desk_.listener.detail(driver_.packing_text());
-    for (const std::string& warning : driver_.packing_warnings()) desk_.listener.warning(warning);
+    for (const std::string& warning : driver_.packing_warnings()) warn(warning);
     return true;
 }
 
 void SceneJob::tell_news() {
     const std::vector<std::string> lines = news();
-    for (; told_ < lines.size(); ++told_) {
-        desk_.listener.warning(lines[told_]);
-        desk_.record.warnings.push_back(lines[told_]);
-    }
+    for (; told_ < lines.size(); ++told_) warn(lines[told_]);
+}
+
+void SceneJob::warn(const std::string& line) {
+    desk_.listener.warning(line);
+    desk_.record.warnings.push_back(line);
 }
 
 void SceneJob::show_progress() {

@@ -70,6 +70,7 @@ class SceneJob : public FolderJob {
     void describe();
     bool pack();  // false when the run was asked to stop before its grains were packed
     void tell_news();
+    void warn(const std::string& line);
     void show_progress();
     void report_segregation();
 

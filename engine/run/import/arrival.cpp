@@ -10,18 +10,29 @@ namespace {
 
 // The contacts with the points where they act. Contacts of grains that do not touch in the frame are left
 // out. They are contacts across a periodic side, or of another moment.
-std::vector<SavedContact> records_of(const std::vector<Link>& touches, const State& frame) {
+std::vector<SavedContact> records_of(const std::vector<Link>& touches, const State& frame,
+                                     Arrival::LeftOut& left) {
     std::vector<SavedContact> records;
+    left.of += std::ssize(touches);
     for (const Link& touch : touches) {
         const std::optional<std::size_t> first = frame.row_of(touch.first);
-        if (!first) continue;
+        if (!first) {
+            ++left.without_grain;
+            continue;
+        }
         SavedContact one{touch.first, touch.second, touch.force, Vec3(0, 0, 0), frame.position[*first]};
         if (touch.second >= 0) {
             const std::optional<std::size_t> second = frame.row_of(touch.second);
-            if (!second) continue;
+            if (!second) {
+                ++left.without_grain;
+                continue;
+            }
             const Vec3 between = frame.position[*second] - frame.position[*first];
             const double reach = frame.radius[*first] + frame.radius[*second];
-            if (between.norm() > 1.04 * reach) continue;
+            if (between.norm() > 1.04 * reach) {
+                ++left.apart;
+                continue;
+            }
             one.point = frame.position[*first] + between * (frame.radius[*first] / reach);
         }
         records.push_back(one);
@@ -68,7 +79,7 @@ void Arrival::complete(State& frame) const {
 void Arrival::take(const State& frame, const std::vector<Link>& touches, const std::vector<double>& more) {
     const std::int64_t number = trajectory_.frames();
     trajectory_.write(frame);
-    if (contacts_) contacts_->write(number, records_of(touches, frame));
+    if (contacts_) contacts_->write(number, records_of(touches, frame, left_out_));
     std::vector<double> row = measures_.row(frame, touches).values();
     row.insert(row.end(), more.begin(), more.end());
     table_.write({names_, std::move(row)});

@@ -46,6 +46,15 @@ class Arrival {
     // Writes what is known only after the last frame.
     void close();
 
+    // Contacts that take() left out of contacts.nc.
+    struct LeftOut {
+        std::int64_t of = 0;             // number of all contacts
+        std::int64_t without_grain = 0;  // one of its grains is not in the frame
+        std::int64_t apart =
+            0;  // its grains do not touch there: across a periodic side, or at another moment
+    };
+    const LeftOut& contacts_left_out() const { return left_out_; }
+
     std::int64_t frames() const { return trajectory_.frames(); }
     std::int64_t rows() const { return table_.rows(); }  // of measures.csv
 
@@ -61,6 +70,7 @@ class Arrival {
     const Measures::Names names_;  // of all columns of measures.csv
     MeasuresWriter table_;
     ImportRanges ranges_;
+    LeftOut left_out_;
 };
 
 }  // namespace grainreel

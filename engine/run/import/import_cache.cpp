@@ -3,10 +3,11 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <optional>
 #include <system_error>
+#include <vector>
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,9 +15,13 @@
 #include <xxhash.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/file_state.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/own_folder.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/program.hpp"
-#include "engine/files/foreign/raw_series.hpp"
+#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/file_groups.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/import/import_run.hpp"
 
@@ -29,25 +34,24 @@ namespace {
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;  // for all imports together
 constexpr const char* kImports = "imports";                     // name of their folder in the cache folder
 constexpr const char* kUnfinished = ".part";
+constexpr const char* kSeal = ".seal";  // name of the file with the state of an import when it was finished
 
-// The folder of imports for a user without a cache folder.
+// The folder of imports for a user without a cache folder; empty where no temporary folder can be used.
 fs::path temporary_imports() {
     std::error_code error;
     const fs::path temporary = fs::temp_directory_path(error);
-    if (error)
-        throw UserError(fmt::format(
-            "the temporary folder, in which files of other programs are imported, cannot be used: "
-            "{}; set TMPDIR, or XDG_CACHE_HOME, to a folder of yours",
-            error.message()));
-    return temporary / fmt::format("grainreel-imports-{}", ::geteuid());
+    return error ? fs::path() : temporary / fmt::format("grainreel-imports-{}", ::geteuid());
 }
 
-// The folder of all imports, which is made if it does not exist. Everybody can make a folder in the temporary
-// folder, so one that is not the user's alone is refused.
-fs::path import_folder() {
-    const fs::path kept = cache_folder() / kImports;
-    if (make_own_cache_folder(kImports).empty() && ::access(kept.c_str(), W_OK) == 0) return kept;
+// The same, made if it does not exist. Everybody can make a folder in the temporary folder, so one that is
+// not the user's alone is refused.
+fs::path own_temporary_imports() {
     const fs::path imports = temporary_imports();
+    if (imports.empty())
+        throw UserError(
+            "the temporary folder, in which files of other programs are imported, cannot be used; set "
+            "TMPDIR, "
+            "or XDG_CACHE_HOME, to a folder of yours");
     const std::string fault = make_own_folder(imports);
     if (!fault.empty())
         throw UserError(
@@ -57,7 +61,15 @@ fs::path import_folder() {
     return imports;
 }
 
-// All files on which the import may depend.
+// The folder of imports in the user's cache folder, made if it does not exist; empty where it cannot be
+// written.
+fs::path cached_imports() {
+    const fs::path kept = cache_folder() / kImports;
+    return make_own_cache_folder(kImports).empty() && ::access(kept.c_str(), W_OK) == 0 ? kept : fs::path();
+}
+
+// The files that the import begins with. Others that these name, such as pieces of a list, are found when
+// they are read; the seal of an import has them all.
 std::vector<fs::path> files_behind(const fs::path& from, const ReadingOptions& options) {
     std::vector<fs::path> files;
     const auto add = [&](const fs::path& path) {
@@ -98,15 +110,18 @@ std::string text_of(const ReadingOptions& o) {
     return text;
 }
 
-// The key of an import: its options and, for each file, the name, size, inode and time of the last change.
+// Without the number of the device, which may change when a disk is mounted again.
+std::string text_of(const FileState& state) {
+    return fmt::format("{} {} {} {}", state.size, state.inode, state.changed, state.touched);
+}
+
+// The key of an import: its options and, for each file, the name, size, inode and times of the last changes.
 std::string key_of(const ImportRequest& request) {
     std::string text = request.program_version + "\n" + fs::absolute(request.from).string() + "\n" +
                        text_of(request.reading);
     for (const fs::path& file : files_behind(request.from, request.reading)) {
-        struct stat facts {};
-        if (::stat(file.c_str(), &facts) != 0) continue;
-        text += fmt::format("\n{} {} {} {}.{}", fs::absolute(file).string(), facts.st_size, facts.st_ino,
-                            facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec);
+        if (const std::optional<FileState> state = state_of_file(file))
+            text += fmt::format("\n{} {}", fs::absolute(file).string(), text_of(*state));
     }
     const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
@@ -165,37 +180,144 @@ void make_room(const fs::path& imports, const fs::path& keep) {
     }
 }
 
-Imported found(const fs::path& folder) {
+// The hash of a file's content; of a large file only both ends are hashed.
+std::uint64_t hash_of(const fs::path& path) {
+    constexpr std::size_t piece = std::size_t{1} << 20;
+    constexpr std::uint64_t most = std::uint64_t{32} << 20;  // bytes at each end
+    const FileBytes file(path);
+    const std::uint64_t size = file.state().size;
+    std::vector<char> bytes(std::min<std::uint64_t>(size, piece));
+    std::uint64_t hash = 0, place = 0;
+    while (place < size) {
+        if (place >= most && place + most < size) place = size - most;
+        const std::size_t got = file.read_at(place, bytes.data(), bytes.size());
+        if (got == 0) break;
+        hash = XXH3_64bits_withSeed(bytes.data(), got, hash);
+        place += got;
+    }
+    return hash;
+}
+
+// All files in the folder of an import, with size, time of change and content. Empty where it holds anything
+// else than files and folders of the user, such as a link or a pipe.
+std::string files_of_import(const fs::path& folder) {
+    std::vector<std::string> files;
+    if (!was_own_folder(folder)) return {};
+    std::error_code error;
+    for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const fs::file_type type = entry->symlink_status(error).type();
+        if (!is_own(entry->path())) return {};
+        if (type == fs::file_type::directory) continue;
+        if (type != fs::file_type::regular) return {};
+        const std::optional<FileState> state = state_of_file(entry->path());
+        if (!state) return {};
+        try {
+            files.push_back(fmt::format("{} {} {} {:016x}\n",
+                                        entry->path().lexically_relative(folder).string(), state->size,
+                                        state->changed, hash_of(entry->path())));
+        } catch (const UserError&) {  // it cannot be read
+            return {};
+        }
+    }
+    if (error) return {};
+    std::sort(files.begin(), files.end());
+    std::string all;
+    for (const std::string& file : files) all += file;
+    return all;
+}
+
+// The seal of an import: the states of all files that it was made of, as they were when they were read, and
+// the files that were made. An import is taken only where all of them are still the same; else it is made
+// anew.
+void write_seal(const fs::path& place, const std::string& name, const FilesRead& read) {
+    std::string sources;
+    std::size_t count = 0;
+    for (const auto& [file, state] : read.all()) {
+        if (file.string().starts_with(place.string())) continue;  // made by the import itself
+        sources += fmt::format("{}\n{}\n", file.string(), text_of(state));
+        ++count;
+    }
+    replace_file(place / kSeal, fmt::format("{}\n", count) + sources + files_of_import(place / name));
+}
+
+bool is_sealed(const fs::path& place, const std::string& name) {
+    if (!was_own_folder(place) || !is_own(place / kSeal)) return false;
+    std::ifstream seal = read_plain(place / kSeal);
+    std::string line, file;
+    std::getline(seal, line);
+    for (std::int64_t left = whole_in(line).value_or(0); left > 0; --left) {
+        if (!std::getline(seal, file) || !std::getline(seal, line)) return false;
+        const std::optional<FileState> state = state_of_file(file);
+        if (!state || text_of(*state) != line) return false;
+    }
+    const std::string files(std::istreambuf_iterator<char>(seal), {});
+    return !files.empty() && files == files_of_import(place / name);
+}
+
+// The import in a folder of imports; none where there is none that can be believed.
+std::optional<Imported> kept_import(const fs::path& place, const std::string& name) {
+    if (!is_sealed(place, name)) return std::nullopt;
     Imported run;
-    run.folder = folder;
-    std::ifstream news(folder / kImportNews);
+    run.folder = place / name;
+    std::ifstream news = read_plain(run.folder / kImportNews);
     for (std::string line; std::getline(news, line);)
         if (!line.empty()) run.news.push_back(line);
     std::error_code ignored;
-    fs::last_write_time(folder.parent_path(), fs::file_time_type::clock::now(), ignored);
+    fs::last_write_time(place, fs::file_time_type::clock::now(), ignored);
     return run;
 }
 
-// The name of the run that is made of these files.
-std::string run_name_of(const fs::path& from) {
+// Makes the import in a folder of the process's own and then gives it its name. The first process to finish
+// keeps the name.
+Imported new_import(const fs::path& place, const std::string& name, ImportRequest request) {
+    const UnfinishedImport unfinished(place, name);
+    const fs::path part = unfinished.folder().parent_path();
+    request.folder = unfinished.folder();
+    std::error_code error;
+    try {
+        const FilesRead sources;
+        Imported run = import_run(request);
+        write_seal(part, name, sources);
+        if (!is_sealed(place, name)) {  // else another process has finished it, and its reader may be at it
+            fs::remove_all(place, error);
+            fs::rename(part, place, error);
+        }
+        if (error && !is_sealed(place, name))
+            throw RunError(fmt::format("{}: cannot be made: {}", place.string(), error.message()));
+        make_room(place.parent_path(), place);
+        run.folder = place / name;
+        return run;
+    } catch (const UserError& mistake) {
+        throw UserError(named_as(mistake.what(), request.folder, request.from));
+    }
+}
+
+// The name of the folder of a run that is made of these files.
+std::string name_of_import(const fs::path& from) {
     std::string name = from.filename().string();
     if (name.empty() || name == "." || name == "..")
         name = fs::absolute(from).lexically_normal().parent_path().filename().string();
     for (char& c : name)
         if (std::string("*?[]").find(c) != std::string::npos) c = '_';
-    return name;
+    return name == kSeal ? name + "_" : name;
 }
 
 }  // namespace
 
-UnfinishedImport::UnfinishedImport(const ImportRequest& request) {
-    const fs::path part = import_folder() / fmt::format("{}.{}{}", key_of(request), ::getpid(), kUnfinished);
+UnfinishedImport::UnfinishedImport(const fs::path& place, const std::string& name) {
+    const fs::path part = place.string() + fmt::format(".{}{}", ::getpid(), kUnfinished);
     std::error_code ignored;
     fs::remove_all(part, ignored);
     if (const std::string fault = make_own_folder(part); !fault.empty())
         throw RunError(fmt::format("{}: cannot be made: {}", part.string(), fault));
-    folder_ = part / run_name_of(request.from);
+    folder_ = part / name;
 }
+
+UnfinishedImport::UnfinishedImport(const ImportRequest& request)
+    : UnfinishedImport(
+          (cached_imports().empty() ? own_temporary_imports() : cached_imports()) / key_of(request),
+          name_of_import(request.from)) {}
 
 UnfinishedImport::~UnfinishedImport() {
     std::error_code ignored;
@@ -207,29 +329,38 @@ void UnfinishedImport::touch() const {
     fs::last_write_time(folder_.parent_path(), fs::file_time_type::clock::now(), ignored);
 }
 
-Imported cached_import(ImportRequest request) {
-    const fs::path imports = import_folder(), place = imports / key_of(request);
-    const std::string name = run_name_of(request.from);
-    std::error_code error;
-    const auto is_there = [&] {
-        std::error_code ignored;
-        return was_own_folder(place) && fs::exists(place / name / "scene.toml", ignored) &&
-               fs::exists(place / name / kImportNews, ignored);
-    };
-    if (is_there()) return found(place / name);
-    // The first process to finish keeps the name.
-    const UnfinishedImport part(request);
-    request.folder = part.folder();
-    Imported run = import_run(request);
-    if (!is_there()) {  // else another process has finished it, and its reader may be at it
-        fs::remove_all(place, error);
-        fs::rename(part.folder().parent_path(), place, error);
+std::string named_as(std::string text, const fs::path& folder, const fs::path& from) {
+    const std::string path = folder.string();
+    for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path, at)) {
+        const std::size_t behind = at + path.size();
+        const bool inside = behind < text.size() && text[behind] == '/';
+        const std::string name = from.string() + (inside ? ": " : "");
+        text.replace(at, path.size() + (inside ? 1 : 0), name);
+        at += name.size();
     }
-    if (error && !fs::exists(place / name / "scene.toml"))
-        throw RunError(fmt::format("{}: cannot be made: {}", place.string(), error.message()));
-    make_room(imports, place);
-    run.folder = place / name;
-    return run;
+    return text;
+}
+
+Imported cached_import(ImportRequest request) {
+    const std::string name = name_of_import(request.from), key = key_of(request);
+    const fs::path cache = cached_imports(), temporary = temporary_imports();
+    if (!cache.empty())
+        if (std::optional<Imported> kept = kept_import(cache / key, name)) return *kept;
+    if (was_own_folder(temporary))
+        if (std::optional<Imported> kept = kept_import(temporary / key, name)) return *kept;
+    bool stopped = false;
+    if (request.watcher)
+        request.watcher = [&stopped, watcher = request.watcher](double done) {
+            return !(stopped = stopped || !watcher(done));
+        };
+    if (!cache.empty()) {
+        try {
+            return new_import(cache / key, name, request);
+        } catch (const RunError&) {  // such as a full disk; there may be room in the temporary folder
+            if (stopped) throw;
+        }
+    }
+    return new_import(own_temporary_imports() / key, name, request);
 }
 
 ImportsKept imports_kept() {
@@ -238,6 +369,7 @@ ImportsKept imports_kept() {
     kept.most_bytes = kMostBytes;
     kept.folder = own_cache_folder(kImports);
     if (kept.folder.empty()) kept.folder = temporary_imports();
+    if (kept.folder.empty()) kept.fault = "there is no folder for them";
     if (!fs::exists(fs::symlink_status(kept.folder, error))) return kept;
     kept.fault = fault_of_own_folder(kept.folder);
     if (!kept.fault.empty()) return kept;

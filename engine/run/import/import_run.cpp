@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
 #include "engine/files/frames/saved_scene.hpp"
@@ -44,6 +45,17 @@ class NewFolder {
     bool kept_ = false;
 };
 
+// Whether one of two boxes is not where the other is.
+bool differ(const std::optional<WorldCell>& a, const std::optional<WorldCell>& b) {
+    if (!a || !b) return false;
+    constexpr double share = 1e-6;  // text files have six digits or more
+    const double room = share * (a->edges[0].norm() + a->edges[1].norm() + a->edges[2].norm());
+    double farthest = (a->origin - b->origin).norm();
+    for (std::size_t edge = 0; edge < 3; ++edge)
+        farthest = std::max(farthest, (a->edges[edge] - b->edges[edge]).norm());
+    return farthest > room;
+}
+
 // Writes scene.toml and reads it. Errors in it come from the files or the options.
 Scene written_and_read(const std::string& text, const ImportRequest& request) {
     const fs::path file = request.folder / "scene.toml";
@@ -63,6 +75,8 @@ ArrivalFacts arrival_facts(const Scene& scene, const ForeignArchive& archive, co
     world.traffic = true;  // in a run of another program any grain may come and go
     world.most_grains = std::max<std::size_t>(1, survey.places);
     if (archive.world().cell) world.cell = archive.world().cell;
+    world.steps_known = archive.keeps_steps();
+    world.first_id = archive.world().first_id;
     ArrivalFacts facts;
     facts.supply = archive.supply();
     facts.header = trajectory_info(world, facts.supply);
@@ -173,8 +187,36 @@ void Import::take(std::size_t index, State frame) {
     files_->arrival.complete(frame);
     files_->arrival.take(frame, archive_.touches(index).value_or(std::vector<Link>()));
     if (files_->wear) files_->wear->write(index);
+    if (!first_box_) first_box_ = archive_.cell(index);
+    box_changes_ = box_changes_ || differ(first_box_, archive_.cell(index));
     run_.frames = files_->arrival.frames();
     run_.most_grains = std::max(run_.most_grains, static_cast<std::int64_t>(frame.size()));
+}
+
+// Says which contacts the files have and the run has not.
+void Import::tell_of_contacts() {
+    const Arrival::LeftOut& left = files_->arrival.contacts_left_out();
+    const auto passed = static_cast<std::int64_t>(archive_.contacts_passed_over());
+    std::vector<std::string> why;
+    const auto add = [&](std::int64_t count, const char* reason) {
+        if (count > 0) why.push_back(fmt::format("{} {}", count, reason));
+    };
+    add(left.without_grain, "with a grain that is not in the frame");
+    add(left.apart, "of grains that are apart in it (across a periodic side, or of another moment)");
+    add(passed, "between walls, or without ids or a finite force");
+    if (why.empty()) return;
+    run_.news.push_back(fmt::format("{}: {} of {} contacts are left out: {}", request_.from.string(),
+                                    left.without_grain + left.apart + passed, left.of + passed,
+                                    fmt::join(why, ", ")));
+}
+
+// The walls that are drawn of a box are those of the first frame.
+void Import::tell_of_box() {
+    const std::vector<MovingWall>& walls = archive_.walls();
+    if (box_changes_ &&
+        std::any_of(walls.begin(), walls.end(), [](const MovingWall& wall) { return wall.is_box; }))
+        run_.news.push_back(fmt::format("{}: its box changes; its sides are drawn as they were at first",
+                                        request_.from.string()));
 }
 
 // The scene's text also says where grains were and how many there were at most.
@@ -186,6 +228,8 @@ void Import::finish(const ImportSurvey& survey) {
         ImportMeasures(scene, clock_of(scene, archive_.moments()),
                        archive_.supply());  // refuses what cannot be
     }
+    tell_of_contacts();
+    tell_of_box();
     files_->arrival.close();
     std::string news;
     for (const std::string& line : run_.news) news += line + "\n";

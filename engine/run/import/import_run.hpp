@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,6 +79,8 @@ class Import {
     void take(std::size_t index, State frame);
     std::array<std::pair<std::int64_t, double>, 2> ends() const;
     void finish(const ImportSurvey& survey);
+    void tell_of_contacts();
+    void tell_of_box();
 
     const ImportRequest request_;
     ForeignArchive archive_;
@@ -88,15 +91,23 @@ class Import {
     std::size_t next_ = 0;          // number of the frame that take_next() takes
     std::array<std::pair<std::int64_t, double>, 2> ends_{};
     std::int64_t last_step_ = 0;
+    std::optional<WorldCell> first_box_;
+    bool box_changes_ = false;
     Imported run_;
 };
 
 // The same in the user's cache folder ($XDG_CACHE_HOME/grainreel/imports), where a later call with the same
-// files (by name, size, time and inode), options and program version finds it again. If all imports together
-// exceed 4 GB, those are removed that were not used for the longest time. Without a cache folder that is the
-// user's alone (own_folder.hpp) the import is made in the temporary folder. Throws UserError where a link or
-// somebody else has taken the name there.
+// files (by name, size, times and inode, also those that a list names), options and program version finds it
+// again. An import that was damaged or changed since is made anew. If all imports together exceed 4 GB, those
+// are removed that were not used for the longest time. Without a cache folder that is the user's alone
+// (own_folder.hpp), or where that is full, the import is made in the temporary folder. Throws UserError where
+// a link or somebody else has taken the name there.
 Imported cached_import(ImportRequest request);
+
+// A message in which the folder of an import has the name of the files that it was made of, which the user
+// knows: "bed.dump: trajectory.nc: frame 3 ...".
+std::string named_as(std::string text, const std::filesystem::path& folder,
+                     const std::filesystem::path& from);
 
 // A folder for an import that no other process uses, beside those of cached_import(). It is removed at the
 // end.
@@ -104,6 +115,8 @@ class UnfinishedImport {
   public:
     // Throws as cached_import() does.
     explicit UnfinishedImport(const ImportRequest& request);
+    // Beside the folder in which the finished import will be. name: of the run.
+    UnfinishedImport(const std::filesystem::path& place, const std::string& name);
     ~UnfinishedImport();
     UnfinishedImport(const UnfinishedImport&) = delete;
     UnfinishedImport& operator=(const UnfinishedImport&) = delete;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,11 @@ struct ResumePoint {
     std::int64_t first = 0;   // step at which the run began
     std::size_t frames = 0;   // frames in film_moments.nc that were handed out before
     std::filesystem::path checkpoint{};
-    std::string held_back{};              // why this is not the run's last checkpoint; empty if it is
-    std::int64_t reached = 0;             // step that the run has already reached
-    bool changed = false;                 // whether the scene changes from there on
-    std::vector<AcceptedKey> accepted{};  // keys that were changed on the run's way up to there
+    std::string held_back{};                  // why this is not the run's last checkpoint; empty if it is
+    std::int64_t reached = 0;                 // step that the run has already reached
+    bool changed = false;                     // whether the scene changes from there on
+    std::vector<AcceptedKey> accepted{};      // keys that were changed on the run's way up to there
+    std::optional<DeepestContact> deepest{};  // of the run so far, as its run.json has it
 };
 
 // For a caller that needs all frames of the run again, such as a film: returns the last step from which the

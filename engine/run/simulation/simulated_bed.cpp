@@ -47,8 +47,33 @@ std::int32_t SimulatedBed::Impl::insert(const std::vector<ComingGrain>& more) {
     return first;
 }
 
+void SimulatedBed::Impl::note_overlap(DeepestContact now) {
+    if (now.share > deepest.share) deepest = std::move(now);
+}
+
+void SimulatedBed::note_overlap() {
+    Impl& m = *impl_;
+    m.note_overlap(grainreel::deepest_contact(m.limits, m.around, m.grains, m.contacts(), m.step));
+}
+
+const DeepestContact& SimulatedBed::deepest_contact() const {
+    return impl_->deepest;
+}
+
+void SimulatedBed::set_deepest_contact(DeepestContact former) {
+    if (former.step <= impl_->step) impl_->note_overlap(std::move(former));
+}
+
+double SimulatedBed::told_overlap() const {
+    return impl_->limits.told();
+}
+
+std::string SimulatedBed::overlap_text() const {
+    return grainreel::overlap_text(impl_->limits, impl_->deepest);
+}
+
 void SimulatedBed::Impl::look_at_health() {
-    check_state(limits, around, grains, *loop, step);
+    note_overlap(check_state(limits, around, grains, *loop, step));
     // The allowance is the work of a hundredth of the bed's weight along one radius. So a bed at rest is not
     // stopped by round-off, or by energy that a law makes in closed loops.
     const Traffic& traffic = loop->traffic();
@@ -182,8 +207,8 @@ std::vector<SavedContact> SimulatedBed::contacts() const {
     impl_->loop->visit_contacts(impl_->step, [&](const ContactView& c) {
         if (c.normal_force <= 0) return;
         const std::int32_t second = c.second >= 0 ? impl_->grains.id[c.second] : c.second;
-        contacts.push_back(
-            {impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point, c.triangle});
+        contacts.push_back({impl_->grains.id[c.first], second, c.normal_force, c.tangential, c.point,
+                            c.triangle, c.rolling});
     });
     // Each thread shows its own contacts, so their order must be set here.
     std::sort(contacts.begin(), contacts.end(), [](const SavedContact& a, const SavedContact& b) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/measure/deepest_contact.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
@@ -115,6 +116,16 @@ class SimulatedBed {
 
     // Runs up to step `target`. Throws RunError if the run is not healthy.
     void advance(std::int64_t target);
+
+    // The contact that has overlapped most so far, and a line about it for the user where it overlapped more
+    // than told_overlap(), a share of the smaller radius; else empty. It is seen by the checks of health, at
+    // most every 200 steps, and by note_overlap(), which looks now.
+    const DeepestContact& deepest_contact() const;
+    void note_overlap();
+    double told_overlap() const;
+    std::string overlap_text() const;
+    // For a run that goes on: the one of the run up to there. One of a later step does not count.
+    void set_deepest_contact(DeepestContact former);
 
     // These two remove and add grains at the step that has been reached, once the run is packed. New grains
     // must touch nothing. insert() returns the id of the first of them.

@@ -89,6 +89,7 @@ struct SimulatedBed::Impl {
     double start_energy = 0;
     HealthLimits limits;
     EnergyWatch energy_watch;
+    DeepestContact deepest;      // of the whole run
     std::int64_t next_look = 0;  // step
 
     bool continued = false;  // whether the run goes on where the file stopped
@@ -115,6 +116,7 @@ struct SimulatedBed::Impl {
     void open_exits();
     void open_when_due();
     void look_at_health();
+    void note_overlap(DeepestContact now);
     ObservedState moment();
     void take_gathered(const std::string& bytes);
     void take_wall_sums(Bytes& in);

@@ -98,6 +98,10 @@ class StoredRun final : public StateArchive {
     std::optional<MeasuredRow> measured_near(std::size_t index) const override;
     std::shared_ptr<const FieldsReader> fields() const override;
     std::size_t place(std::size_t index) const override { return frames_->place(number(index)); }
+    std::optional<WorldCell> cell(std::size_t index) const override { return frames_->cell(number(index)); }
+    std::optional<std::int64_t> written_step(std::size_t index) const override {
+        return frames_->written_step(number(index));
+    }
     int periods() const override { return periods_.value_or(frames_->periods()); }
     State first() const override { return is_folder_ ? first_whole() : frames_->first(); }
     const Scene* scene() const override { return frames_->scene(); }

@@ -282,6 +282,20 @@ void check_paths(const Scene& scene) {
     }
 }
 
+// In a container with a periodic depth a plane must be the same after each period along x, so its normal may
+// not have a part along x.
+void check_planes_of_period(const Scene& scene) {
+    constexpr double rounding = 1e-9;
+    if (!scene.container.periodic_depth) return;
+    for (std::size_t k = 0; k < scene.walls.size(); ++k)
+        if (const Vec3& normal = scene.walls[k].normal; std::abs(normal.x()) > rounding)
+            fail(scene, fmt::format("wall[{}].normal", k),
+                 fmt::format(
+                     "is [{:.4g}, {:.4g}, {:.4g}], but a plane that leans along x would jump where the depth "
+                     "is periodic; make its first number 0, or take out container.periodic_depth",
+                     normal.x(), normal.y(), normal.z()));
+}
+
 // Refuses what cannot go together with meshes.
 void check_company(const Scene& scene) {
     const Container& c = scene.container;
@@ -342,6 +356,7 @@ void check_vessel(const Scene& scene) {
 void check_meshes(const Scene& scene) {
     check_mesh_names(scene);
     check_company(scene);
+    check_planes_of_period(scene);
     check_turn(scene);
     check_paths(scene);
     check_vessel(scene);

@@ -27,6 +27,19 @@ void check_utf8(std::string_view text, const std::string& file) {
                                 static_cast<unsigned char>(text[*bad])));
 }
 
+// Whether a comma stands between two digits at that place, which a TOML parser does not expect.
+bool is_decimal_comma(std::string_view text, const toml::source_position& place) {
+    std::size_t start = 0;
+    for (toml::source_index line = 1; line < place.line; ++line) {
+        start = text.find('\n', start);
+        if (start++ == std::string_view::npos) return false;
+    }
+    const std::size_t comma = start + place.column - 1;
+    const auto is_digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
+    return comma > 0 && comma + 1 < text.size() && text[comma] == ',' && is_digit(comma - 1) &&
+           is_digit(comma + 1);
+}
+
 toml::table parse(std::string_view text, const std::string& file) {
     check_utf8(text, file);
     try {
@@ -34,9 +47,12 @@ toml::table parse(std::string_view text, const std::string& file) {
     } catch (const toml::parse_error& error) {
         std::string what(error.description());
         std::replace(what.begin(), what.end(), '\n', ' ');
-        throw UserError(fmt::format(
-            "{}:{}:{}: this is not TOML ({}); text and quantities with units want quotes", file,
-            error.source().begin.line, error.source().begin.column, excerpt(what, most_of_parser)));
+        const toml::source_position& place = error.source().begin;
+        const char* advice = is_decimal_comma(text, place)
+                                 ? "a number has a point in place of the comma, as in 9.5"
+                                 : "text and quantities with units want quotes";
+        throw UserError(fmt::format("{}:{}:{}: this is not TOML ({}); {}", file, place.line, place.column,
+                                    excerpt(what, most_of_parser), advice));
     }
 }
 

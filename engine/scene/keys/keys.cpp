@@ -176,9 +176,31 @@ std::string table_of(std::string_view path) {
     return heading_of(parent_of(without_indices(path)));
 }
 
+namespace {
+
+// What users call a key of a table, where another table has a key of that name which means something else.
+struct OtherName {
+    const char *table, *name, *key;
+};
+constexpr OtherName other_names[] = {{"drive", "gamma", "g_level"},
+                                     {"drive", "Gamma", "g_level"},
+                                     {"drive", "Γ", "g_level"},
+                                     {"drive", "acceleration", "g_level"}};
+
+std::optional<std::string> meant_by(const std::string& table, const std::string& name) {
+    for (const OtherName& other : other_names)
+        if ((table == other.table || table == std::string(other.table) + ".stage[]") && name == other.name)
+            return other.key;
+    return std::nullopt;
+}
+
+}  // namespace
+
 std::string advice_for_unknown_key(std::string_view path, const std::vector<Key>& keys) {
     const std::string name = name_of(without_indices(path));
     const std::vector<std::string> here = names_inside(parent_of(without_indices(path)), keys);
+    if (const auto meant = meant_by(parent_of(without_indices(path)), name))
+        return fmt::format("did you mean '{}'?", *meant);
     if (const std::optional<std::string> nearest = nearest_name(name, here))
         return fmt::format("did you mean '{}'?", *nearest);
     for (const Key& key : keys)

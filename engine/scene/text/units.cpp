@@ -72,7 +72,7 @@ const UnitSystem& unit_system() {
     return system;
 }
 
-constexpr std::array<DimensionText, 18> dimension_texts{{
+constexpr std::array<DimensionText, 20> dimension_texts{{
     {"m", "a length", "\"5 mm\"", 1e-12, 1e6},
     {"s", "a time", "\"10 s\"", 1e-30, 1e12},
     {"Hz", "a frequency", "\"25 Hz\"", 1e-12, 1e12},
@@ -91,6 +91,8 @@ constexpr std::array<DimensionText, 18> dimension_texts{{
     {"N", "a force", "\"10 mN\"", 0, 1e30},
     {"N.m", "a moment", "\"1 N.m\"", 0, 1e30},
     {"1", "a plain number", "0.5", 0, 1e30},
+    {"kg/s", "a mass flow", "\"10 g/s\"", 0, 1e30},
+    {"W", "a power", "\"1 mW\"", 0, 1e30},
 }};
 
 // Whether a text can be a unit: it begins with a letter or with "1/", and no number follows a space.
@@ -115,6 +117,20 @@ double scaled(double value, double scale) {
     const double parts = std::round(1 / scale), times = std::round(scale);
     if (parts > 1 && std::abs(parts * scale - 1) < rounding) return value / parts;
     return times >= 1 && std::abs(scale / times - 1) < rounding ? value * times : value * scale;
+}
+
+// The text with a point in place of the comma of its number; nothing for a text without one. "9,5 mm" is how
+// a half is written in much of Europe.
+std::optional<std::string> with_decimal_point(std::string_view text) {
+    const std::size_t comma = text.find(',');
+    const auto is_digit = [&](std::size_t i) {
+        return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+    };
+    if (comma == 0 || comma == std::string_view::npos || !is_digit(comma - 1) || !is_digit(comma + 1))
+        return std::nullopt;
+    std::string mended(text);
+    mended[comma] = '.';
+    return mended;
 }
 
 // " is a time" for a unit of another known dimension, else " is not".
@@ -185,6 +201,10 @@ double parse_quantity(std::string_view text, Dimension dimension, const std::str
     if (failure != std::errc() || !std::isfinite(value))
         throw fail(fmt::format("\"{}\" does not begin with a number", shown));
     const std::string unit_text(trimmed(all.substr(static_cast<std::size_t>(end - all.data()))));
+    if (const std::optional<std::string> mended = with_decimal_point(all))
+        throw UserError(fmt::format(
+            "must be {}, but \"{}\" has a comma in its number; write {}", wanted.noun, shown,
+            std::isdigit(static_cast<unsigned char>(mended->back())) ? *mended : '"' + *mended + '"'));
     if (dimension == Dimension::number)
         throw fail(unit_text.empty() ? fmt::format("\"{}\" is text; leave the quotes out", shown)
                                      : fmt::format("\"{}\" has a unit", shown));
@@ -226,6 +246,10 @@ std::vector<std::string> usual_units(Dimension dimension) {
             return {"N.m", "mN.m", "µN.m", "nN.m"};
         case Dimension::pressure:
             return {"MPa", "kPa", "Pa"};
+        case Dimension::mass_flow:
+            return {"kg/s", "g/s", "mg/s"};
+        case Dimension::power:
+            return {"W", "mW", "µW", "nW"};
         case Dimension::number:
             return {""};
         default:

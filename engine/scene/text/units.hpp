@@ -30,6 +30,8 @@ enum class Dimension {
     force,
     moment,
     number,
+    mass_flow,
+    power,
 };
 
 struct DimensionText {

@@ -13,6 +13,26 @@ namespace grainreel {
 
 namespace {
 
+// The same input, with what does not count in this step.
+ForceInput with_screens(ForceInput in, const ThreadContacts& contacts, Halo* halo, Screens& screens) {
+    if (contacts.screens.empty()) return in;
+    screens.find(in, contacts, halo);
+    in.screens = &screens;
+    return in;
+}
+
+// Gives new contacts with faces the histories with which they go on.
+void give_to_heirs(const ForceInput& in, std::size_t g, ContactTable& table) {
+    const ContactGroup& group = in.rules.groups[g];
+    for (const Screens::Heir& heir : in.screens->heirs()) {
+        const bool is_face = heir.wall < std::ssize(in.walls.faces);
+        if (!is_face || in.rules.group_of_wall[in.grains.species[heir.grain]] != static_cast<std::int32_t>(g))
+            continue;
+        const std::int32_t c = table.place_of(heir.grain, heir.wall);
+        for (int k = 0; c >= 0 && k < group.law_size(); ++k) table.histories().set(c, k, heir.numbers[k]);
+    }
+}
+
 // Adds the forces in `memory` to the loads of the chunk's grains.
 void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, bool rounded, bool sorted,
                const ChunkMemory& memory, Grains& grains) {
@@ -24,7 +44,8 @@ void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chu
                                  .rubs = group.law->rubs,
                                  .rolling = group.rolling ? &memory.rolling : nullptr,
                                  .rounded = rounded,
-                                 .sorted = sorted};
+                                 .sorted = sorted,
+                                 .of_glued = group.of_glued};
     if (group.of_pairs) return add_pairs(forces, grains);
     const WallLoads at_walls{forces, in.walls, in.times.acts, grains};
     if (group.of_mesh) return add_at_meshes(at_walls);
@@ -36,8 +57,9 @@ void add_loads(const ForceInput& in, const ContactGroup& group, const Chunk& chu
 // Contacts go through geometry, law and loads a chunk at a time, so that a chunk stays in the cache. Contacts
 // at walls come before contacts of pairs. In each group, the contacts that began since the last refresh come
 // first.
-void add_contact_forces(const ForceInput& in, Grains& grains, ThreadContacts& contacts, ChunkMemory& memory,
-                        Vanguard& vanguard, CostClock& clock) {
+void add_contact_forces(const ForceInput& forces, Grains& grains, ThreadContacts& contacts,
+                        ChunkMemory& memory, Vanguard& vanguard, CostClock& clock) {
+    const ForceInput in = with_screens(forces, contacts, &contacts.halo, memory.screens);
     for (std::size_t g = contacts.tables.size(); g-- > 0;) {
         const ContactGroup& group = in.rules.groups[g];
         const bool rounded = group.number_size() == sizeof(float);
@@ -130,6 +152,8 @@ void find_patches(const ForceInput& in, std::size_t g, ThreadContacts& contacts,
             } else if (!patch.goes_on) {
                 table.histories().clear(c);
             }
+            for (int k = 0; patch.heir && k < group.law_size(); ++k)
+                table.histories().set(c, k, patch.heir->numbers[k]);
             lists.touch[c] = patch.touch;
         }
         if (matcher.fault()) note(*matcher.fault(), contacts.fault);
@@ -146,6 +170,19 @@ void remember_patches(const ContactGroup& group, const MeshTouch* touch, const C
 
 namespace {
 
+// Leaves out those of the candidates from c on that do not count. `which` has a bit for each.
+std::uint64_t without_screened(const ForceInput& in, std::size_t g, const ContactTable& table, std::int32_t c,
+                               std::uint64_t which) {
+    if (!in.screens || !in.screens->any()) return which;
+    for (std::uint64_t left = which; left != 0; left &= left - 1) {
+        const int k = std::countr_zero(left);
+        if (in.screens->screens(static_cast<std::int32_t>(g), table.near_first()[c + k],
+                                table.near_second()[c + k]))
+            which &= ~(std::uint64_t{1} << k);
+    }
+    return which;
+}
+
 // Makes contacts of those candidates [from, to) of a group that touch; `from` is a multiple of kChunk.
 void admit_all(const ForceInput& in, std::size_t g, ThreadContacts& contacts, std::int32_t from,
                std::int32_t to) {
@@ -154,7 +191,8 @@ void admit_all(const ForceInput& in, std::size_t g, ThreadContacts& contacts, st
     for (std::int32_t c = from; c < to; c += kChunk) {
         const auto bodies = contacts.found[g].candidates.of(table.near_first(), table.near_second(), c);
         if (group.of_pairs && is_large_bed(in.grains)) fetch_places(in.grains, table, c);
-        table.admit(c, which_touch(in, group, bodies, std::min(kChunk, to - c)));
+        table.admit(
+            c, without_screened(in, g, table, c, which_touch(in, group, bodies, std::min(kChunk, to - c))));
     }
 }
 
@@ -182,8 +220,9 @@ void admit_soon(const ForceInput& in, std::size_t g, ThreadContacts& contacts, c
         const Halo::Bodies bodies{soon.first() + k, soon.second() + k};
         std::uint64_t left = which_touch(in, in.rules.groups[g], bodies, std::min(kChunk, soon.size() - k));
         for (; left != 0; left &= left - 1) {
-            const std::int32_t at = soon.at(k + std::countr_zero(left));
-            contacts.tables[g].admit(at / kChunk * kChunk, std::uint64_t{1} << at % kChunk);
+            const std::int32_t at = soon.at(k + std::countr_zero(left)), c = at / kChunk * kChunk;
+            ContactTable& table = contacts.tables[g];
+            table.admit(c, without_screened(in, g, table, c, std::uint64_t{1} << at % kChunk));
         }
     }
 }
@@ -206,13 +245,15 @@ void admit_soon(const ForceInput& in, std::size_t g, ThreadContacts& contacts) {
 
 void add_new_contacts(const ForceInput& in, std::size_t g, ThreadContacts& contacts) {
     ContactTable& table = contacts.tables[g];
+    const ContactGroup& group = in.rules.groups[g];
     table.begin_step();
-    if (in.rules.groups[g].of_pairs && !is_large_bed(in.grains))
+    if (group.of_pairs && !is_large_bed(in.grains))
         admit_soon(in, g, contacts);
     else
         admit_all(in, g, contacts, 0, table.candidates());
     const std::int32_t first_new = table.end_step();
     contacts.note_loaded(in.rules, g, first_new, table.size());
+    if (in.screens && !group.of_pairs && !group.of_glued) give_to_heirs(in, g, table);
 }
 
 namespace {
@@ -221,6 +262,15 @@ namespace {
 std::int32_t wall_of(const ForceInput& in, const ContactGroup& group, std::int32_t second) {
     if (group.of_mesh) return static_cast<std::int32_t>(in.walls.faces.size()) + mesh_of(second);
     return group.of_glued ? in.glued.face[second] : second;
+}
+
+// Distance (m) of the point where a grain touches another body from the grain's centre. On a wall (`other` is
+// 0) it is the point of the surface, between spheres it lies in the plane of the circle in which they
+// intersect. The lever arms of the torques end there too (LeverArms::contact_plane).
+double distance_of_point(double radius, double other, double overlap) {
+    if (other == 0) return radius - overlap;
+    const double reach = radius + other, distance = reach - overlap;
+    return 0.5 * (distance + (radius - other) * (reach / distance));
 }
 
 ContactView view_of(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, int at,
@@ -251,8 +301,10 @@ ContactView view_of(const ForceInput& in, const ContactGroup& group, const Chunk
     v.latched_energy = energy.latched[at];
     v.damping_power = energy.damping[at];
     v.rubbing_power = energy.rubbing[at];
-    // On a mesh the contact point is the point of the surface, elsewhere the middle of the overlap.
-    v.point = one.position + v.normal * (one.radius - (group.of_mesh ? 1.0 : 0.5) * v.overlap);
+    const double other = group.of_pairs   ? in.grains.place[second].radius
+                         : group.of_glued ? in.glued.place[second].radius
+                                          : 0;
+    v.point = one.position + v.normal * distance_of_point(one.radius, other, v.overlap);
     return v;
 }
 
@@ -296,6 +348,7 @@ void see_candidates(const ForceInput& in, std::size_t g, const ThreadContacts& c
     for (std::int32_t c = 0; c < table.candidates(); c += kChunk) {
         const Halo::Bodies bodies{table.near_first() + c, table.near_second() + c};
         std::uint64_t left = which_touch(in, group, bodies, std::min(kChunk, table.candidates() - c));
+        left = without_screened(in, g, table, c, left);
         for (left &= ~table.admitted(c); left != 0; left &= left - 1) {
             const int k = std::countr_zero(left);
             see_alone(in, group, bodies.first[k], bodies.second[k], nullptr, contacts.begin, memory, see);
@@ -325,10 +378,11 @@ std::vector<MeshTouch> see_new_patches(const ForceInput& in, std::size_t g, cons
 
 }  // namespace
 
-void view_contacts(const ForceInput& in, std::size_t g, const ThreadContacts& contacts,
+void view_contacts(const ForceInput& forces, std::size_t g, const ThreadContacts& contacts,
                    const std::function<void(const ContactView&)>& in_order,
                    const std::function<void(const ContactView&)>& late) {
     ChunkMemory memory;
+    const ForceInput in = with_screens(forces, contacts, nullptr, memory.screens);
     const ContactTable& table = contacts.tables[g];
     std::vector<MeshTouch> touch;
     if (in.rules.groups[g].of_mesh) touch = see_new_patches(in, g, contacts, memory, late);

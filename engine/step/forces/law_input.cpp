@@ -37,6 +37,17 @@ void touch(const ForceInput& in, const ContactGroup& group, const GeometryInput&
     touch_glued(geometry, {in.glued, in.walls, in.rules.period}, memory.face, memory.touch);
 }
 
+// Contacts that are screened do not touch.
+void part_screened(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, bool rounded,
+                   TouchChunk& touch) {
+    const auto number = static_cast<std::int32_t>(&group - in.rules.groups.data());
+    for (int c = 0; c < chunk.count; ++c) {
+        if (!touch.touches(c) || !in.screens->screens(number, chunk.first[c], chunk.second[c])) continue;
+        touch.touching &= ~(std::uint64_t{1} << c);
+        touch.overlap.set(c, -1, rounded ? sizeof(float) : sizeof(double));
+    }
+}
+
 }  // namespace
 
 LawInput law_input(const ForceInput& in, const ContactGroup& group, const Chunk& chunk, bool rounded,
@@ -55,6 +66,8 @@ LawInput law_input(const ForceInput& in, const ContactGroup& group, const Chunk&
                                  .rounded = rounded};
     touch(in, group, geometry, chunk.mesh, memory);
     memory.touch.touching &= bits_of_first(chunk.count);  // without the copies that fill the last block
+    if (in.screens && in.screens->any() && !group.of_mesh)
+        part_screened(in, group, chunk, rounded, memory.touch);
     return {.count = chunk.count,
             .touch = &memory.touch,
             .kind = kinds_of(in, group, chunk, memory.kind),
@@ -84,6 +97,11 @@ void set_touch(const WallPose& pose, std::int32_t triangle, double distance, con
     touch.spin = pose.spin;
 }
 
+// The number of a mesh among all walls.
+std::int32_t wall_of(const ForceInput& in, const MeshNear& near) {
+    return static_cast<std::int32_t>(in.walls.faces.size()) + near.mesh;
+}
+
 // The contact of a grain with a mesh that touched in the last step, if it was just one.
 struct LoneContact {
     std::int32_t number;
@@ -106,6 +124,16 @@ std::optional<LoneContact> lone_contact(const ContactGroup& group, const MeshNea
 
 }  // namespace
 
+void find_touched(const MeshNear& near, const MeshLists& lists, const Surface& surface, const Vec3& centre,
+                  double radius, Patches& patches) {
+    const double reach = radius + (centre - near.centre).norm();
+    const NearTriangle* const first = lists.triangles.data() + near.first;
+    patches.begin(surface, centre, radius);
+    for (const NearTriangle* t = first; t != first + near.count && t->distance < reach; ++t)
+        patches.add(t->number);
+    patches.find();
+}
+
 const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in,
                                                      const std::vector<MeshWall>& meshes,
                                                      const ContactGroup& group, const MeshNear& near,
@@ -116,19 +144,17 @@ const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in,
     const Vec3 centre = pose.at_rest(grain.position);
     // A triangle has come nearer by no more than the grain has moved in the body's frame.
     const double gone = (centre - near.centre).norm(), reach = grain.radius + gone;
-    const NearTriangle* triangle = lists.triangles.data() + near.first;
-    const NearTriangle* const end = triangle + near.count;
-    if (!(triangle->distance < reach)) {
+    if (!(lists.triangles[near.first].distance < reach)) {
         matched_.clear();
         return matched_;
     }
     const Asked asked{*meshes[near.mesh].surface, pose, centre, grain.radius, gone, reach};
-    if (find_lone(group, near, lists, table, asked)) return matched_;
+    const bool watched = in.screens && near.watched != MeshNear::kNone;
+    if (!watched && find_lone(group, near, lists, table, asked)) return matched_;
 
     matched_.clear();
-    patches_.begin(asked.surface, centre, grain.radius);
-    for (; triangle != end && triangle->distance < reach; ++triangle) patches_.add(triangle->number);
-    patches_.find();
+    find_touched(near, lists, asked.surface, centre, grain.radius, patches_);
+    if (watched) in.screens->leave_out(near.grain, wall_of(in, near), patches_);
     if (patches_.all().empty()) return matched_;
     normals_.clear(), distances_.clear();
     for (const Patch& patch : patches_.all()) {
@@ -138,7 +164,7 @@ const std::vector<MatchedPatch>& PatchMatcher::match(const ForceInput& in,
     find_before(group, near, table);
     look_for_crossings(in, near, pose);
     find_owners();
-    put_together(pose);
+    put_together(in, near, pose);
     return matched_;
 }
 
@@ -231,7 +257,7 @@ void PatchMatcher::look_for_crossings(const ForceInput& in, const MeshNear& near
     }
 }
 
-void PatchMatcher::put_together(const WallPose& pose) {
+void PatchMatcher::put_together(const ForceInput& in, const MeshNear& near, const WallPose& pose) {
     std::array<bool, kMostPatches> taken{};
     const std::vector<Patch>& all = patches_.all();
     for (int p = 0; p < count_of(all); ++p)
@@ -244,6 +270,8 @@ void PatchMatcher::put_together(const WallPose& pose) {
         const std::int32_t number = goes_on ? before_[owner_[p]].number : free++;
         const Vec3 before = goes_on ? before_[owner_[p]].normal : Vec3(0, 0, 0);
         MatchedPatch& matched = matched_.emplace_back(MatchedPatch{number, goes_on, {}});
+        if (!goes_on && in.screens && near.watched != MeshNear::kNone)
+            matched.heir = in.screens->heir(near.grain, wall_of(in, near), normals_[p]);
         set_touch(pose, patch.triangle, distances_[p], patch.at, normals_[p], before, matched.touch);
     }
 }

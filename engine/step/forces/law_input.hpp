@@ -13,6 +13,7 @@
 #include "engine/laws/law_kernel.hpp"
 #include "engine/state/glued_grains.hpp"
 #include "engine/state/grains.hpp"
+#include "engine/step/forces/screens.hpp"
 #include "engine/step/geometry/patches.hpp"
 #include "engine/step/geometry/walls.hpp"
 #include "engine/step/lists/contact_rules.hpp"
@@ -38,6 +39,7 @@ struct ForceInput {
     const GluedGrains& glued;
     const std::vector<MeshWall>& meshes;
     ForceTimes times;
+    const Screens* screens = nullptr;  // what does not count in this step; nullptr if nothing is watched
 };
 
 // Which patch of a mesh goes on with which contact of the step before.
@@ -53,7 +55,12 @@ struct MatchedPatch {
     std::int32_t number;  // number among the grain's patches of this mesh, below kMostPatches
     bool goes_on;         // whether the contact of this number goes on with it
     MeshTouch touch;
+    const Screens::Heir* heir = nullptr;  // the history of another wall's contact with which it begins
 };
+
+// Finds where a grain touches a mesh. `near` is its place in the lists; centre (m) is in the body's frame.
+void find_touched(const MeshNear& near, const MeshLists& lists, const Surface& surface, const Vec3& centre,
+                  double radius, Patches& patches);
 
 class PatchMatcher {
   public:
@@ -87,7 +94,7 @@ class PatchMatcher {
     void find_owners();
     int patch_of(const Before& before) const;
     void look_for_crossings(const ForceInput& in, const MeshNear& near, const WallPose& pose);
-    void put_together(const WallPose& pose);
+    void put_together(const ForceInput& in, const MeshNear& near, const WallPose& pose);
 
     Patches patches_;
     std::vector<Vec3> normals_;  // normals of the patches, in the frame of the scene
@@ -117,6 +124,7 @@ struct ChunkMemory {
     std::int32_t face[kChunk] = {};  // faces to which the glued grains belong
     Ahead ahead;
     PatchMatcher matcher;
+    Screens screens;
 };
 
 // Computes the geometry of the chunk into memory.touch, in floats if `rounded`. Returns the input of its law.

@@ -109,7 +109,11 @@ void note(const WallLoads& in, int c, const Triple<L>& force) {
         const Place& grain = in.grains.place[chunk.first[c + k]];
         const Row* const normal = chunk.touch->normal;
         const Vec3 out(normal[0].get(c + k, size), normal[1].get(c + k, size), normal[2].get(c + k, size));
-        const double reach = grain.radius - 0.5 * chunk.touch->overlap.get(c + k, size);
+        // The point of the surface. On a glued grain it is where the lever arm ends; without friction, the
+        // place along the normal makes no difference to the moment.
+        const double reach = chunk.of_glued && chunk.rubs
+                                 ? chunk.touch->first_arm.get(c + k, size)
+                                 : grain.radius - chunk.touch->overlap.get(c + k, size);
         Vec3 couple(0, 0, 0);
         if (chunk.rolling)
             for (int a = 0; a < 3; ++a) couple[a] = chunk.rolling->torque[a].get(c + k, size);

@@ -18,7 +18,8 @@ struct ChunkOfContacts {
     bool rubs;
     const RollingChunk* rolling;  // nullptr: no resistance to rolling
     bool rounded;                 // rows hold floats
-    bool sorted = false;  // by rising first body, each of which has a lower index than its second body
+    bool sorted = false;    // by rising first body, each of which has a lower index than its second body
+    bool of_glued = false;  // contacts with glued grains; `second` is the face that carries them
 };
 
 // Adds the forces of pairs to the loads of their grains. Each grain sums its forces in the contacts' order.

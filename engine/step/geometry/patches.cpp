@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/mesh/surface.hpp"
 
 namespace grainreel {
@@ -32,11 +33,33 @@ bool has_vertex(const TriangleMesh::Triangle& triangle, std::int32_t vertex) {
     return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
 }
 
+// Relative to a patch's distance: what is nearer to it than this does not lie before it.
+constexpr double kTouching = 1e-9;
+
+TouchedPlace touched_at(const Patch& patch) {
+    return {patch.normal, patch.distance, patch.on_face};
+}
+
+bool is_before(const Patch& one, const Patch& other) {
+    return one.distance != other.distance ? one.distance < other.distance : one.triangle < other.triangle;
+}
+
 }  // namespace
+
+// Roundings in files leave the parts of one plane a little apart, so what lies a thousandth of the radius
+// before a plane counts as lying in it.
+bool stands_for(const TouchedPlace& nearer, const TouchedPlace& other, double radius) {
+    static const double one_place = math::cos(kSmoothAngle);
+    constexpr double kInPlane = 1e-3;
+    const double cosine = nearer.normal.dot(other.normal);
+    return cosine > one_place ||
+           (nearer.on_face && cosine * other.distance > nearer.distance - kInPlane * radius);
+}
 
 void Patches::begin(const Surface& surface, const Vec3& centre, double radius) {
     surface_ = &surface;
     centre_ = centre;
+    radius_ = radius;
     squared_reach_ = radius * radius;
     touching_.clear();
     patches_.clear();
@@ -87,6 +110,7 @@ void Patches::find() {
     // Adds the patches by rising triangle.
     for (int t = 0; t < count; ++t)
         if (const int group = group_of(t); best_[group] == t && is_minimum(t)) add_patch(group, t);
+    if (patches_.size() > 1) keep_those_that_count();
 }
 
 int Patches::holder_of(std::int32_t triangle) const {
@@ -196,12 +220,68 @@ void Patches::add_patch(int group, int best) {
         if (group_of(t) == group) touching_[t].patch = number;
     const Touching& t = touching_[best];
     const Vec3& normal = surface_->normal(t.triangle);
-    Patch patch{t.triangle, t.nearest.at, t.plane > 0 ? Vec3(-normal) : normal, std::abs(t.plane)};
-    if (t.nearest.feature != Feature::face) {
+    Patch patch{t.triangle, t.nearest.at, t.plane > 0 ? Vec3(-normal) : normal, std::abs(t.plane),
+                t.nearest.feature == Feature::face};
+    if (!patch.on_face) {
         patch.distance = std::sqrt(t.nearest.squared);
         if (patch.distance > 0) patch.normal = (t.nearest.at - centre_) / patch.distance;
     }
     patches_.push_back(patch);
+}
+
+// Leaves out the patches that do not count. What is left out decides about others as what stays does, so that
+// the answer changes evenly as the grain moves.
+void Patches::keep_those_that_count() {
+    const int count = static_cast<int>(patches_.size());
+    heir_.resize(patches_.size());
+    bool all = true;
+    for (int p = 0; p < count; ++p) {
+        const Patch& patch = patches_[p];
+        heir_[p] = p;
+        for (int o = 0; o < count; ++o) {
+            const Patch& other = patches_[o];
+            if (is_before(other, patch) && stands_for(touched_at(other), touched_at(patch), radius_) &&
+                (heir_[p] == p || is_before(other, patches_[heir_[p]])))
+                heir_[p] = o;
+        }
+        if (heir_[p] == p && !is_free(patch)) heir_[p] = -1;
+        all = all && heir_[p] == p;
+    }
+    if (!all) renumber(heir_);
+}
+
+// Only a triangle whose plane lies between can stand in the way. In most corners there is none.
+bool Patches::is_free(const Patch& patch) const {
+    const double least = kTouching * patch.distance;
+    const auto may_stand_between = [&](const Touching& t) {
+        const double behind = surface_->normal(t.triangle).dot(patch.at - surface_->corner(t.triangle, 0));
+        return t.plane > 0 ? behind < -least : t.plane < 0 && behind > least;
+    };
+    return !std::any_of(touching_.begin(), touching_.end(), may_stand_between) ||
+           !surface_->meets(centre_, patch.normal, (1 - kTouching) * patch.distance);
+}
+
+// Closes the gaps of the patches that are left out, and hands their triangles to those that count.
+void Patches::renumber(const std::vector<int>& heir) {
+    std::vector<int> number(patches_.size(), -1);
+    std::size_t kept = 0;
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+        if (heir[p] == static_cast<int>(p)) {
+            number[p] = static_cast<int>(kept);
+            patches_[kept++] = patches_[p];
+        }
+    patches_.resize(kept);
+    for (Touching& t : touching_) {
+        while (t.patch >= 0 && heir[t.patch] != t.patch) t.patch = heir[t.patch];
+        if (t.patch >= 0) t.patch = number[t.patch];
+    }
+}
+
+void Patches::leave_out(std::int32_t triangle) {
+    heir_.resize(patches_.size());
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+        heir_[p] = patches_[p].triangle == triangle ? -1 : static_cast<int>(p);
+    renumber(heir_);
 }
 
 }  // namespace grainreel

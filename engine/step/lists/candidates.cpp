@@ -150,6 +150,7 @@ void list_candidates(const ContactRules& rules, const Nearby& nearby, ThreadCont
         if (rules.groups[g].of_pairs && !is_large_bed(nearby.grains))
             contacts.soon[g].expire(contacts.tables[g].candidates());
     contacts.skin = nearby.skin;
+    list_screens(rules, nearby, contacts);
 }
 
 void refresh(const ContactRules& rules, const Nearby& nearby, ThreadContacts& contacts) {

@@ -160,6 +160,19 @@ std::int32_t ContactTable::end_step() {
     return std::max(batches_.back().from, late());
 }
 
+std::int32_t ContactTable::place_of(std::int32_t i, std::int32_t j) const {
+    std::int32_t low = 0, high = sorted_;
+    while (low < high) {
+        const std::int32_t middle = low + (high - low) / 2;
+        key(first_[middle], second_[middle]) < key(i, j) ? low = middle + 1 : high = middle;
+    }
+    const auto is = [&](std::int32_t c) { return first_[c] == i && second_[c] == j; };
+    if (low < sorted_ && is(low)) return low;
+    for (std::int32_t c = late(); c < size_; ++c)
+        if (is(c)) return c;
+    return -1;
+}
+
 void ContactTable::keep(std::int32_t c, std::int32_t tag, KeptContacts& kept) const {
     kept.first.push_back(first_[c]);
     kept.second.push_back(second_[c]);

@@ -84,6 +84,8 @@ class ContactTable {
     void renumber(std::int32_t c, std::int32_t i, std::int32_t j) { first_[c] = i, second_[c] = j; }
     void forget_order() { sorted_ = 0; }
     void drop(std::int32_t c) { touching_[c / 64] &= ~(std::uint64_t{1} << c % 64); }
+    // The place of a contact, or -1.
+    std::int32_t place_of(std::int32_t i, std::int32_t j) const;
     bool touches(std::int32_t c) const { return touching_[c / 64] >> c % 64 & 1; }
 
     // keep() appends contact c to `kept`; take() adds contact k of `kept` to the table.

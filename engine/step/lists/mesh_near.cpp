@@ -60,7 +60,8 @@ void MeshLists::add(std::int32_t grain, std::int32_t mesh, const Surface& surfac
                  0,
                  -1,
                  0,
-                 {}};
+                 {},
+                 MeshNear::kNone};
     one.contact.fill(MeshNear::kNone);
     find_flat(surface, reach, one);
     near.push_back(one);

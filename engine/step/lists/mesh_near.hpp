@@ -30,6 +30,7 @@ struct MeshNear {
     double stays;
     std::int32_t slots = 0;  // only patches with numbers below this may have a contact
     std::array<std::int32_t, kMostPatches> contact;  // places of its patches in the table, or kNone
+    std::int32_t watched = kNone;                    // its place in ScreenWatch::grains, or kNone
 
     void set_contact(std::int32_t number, std::int32_t at) {
         contact[number] = at;

@@ -19,6 +19,7 @@
 #include "engine/step/lists/contact_rules.hpp"
 #include "engine/step/lists/contact_table.hpp"
 #include "engine/step/lists/mesh_near.hpp"
+#include "engine/step/lists/screen_watch.hpp"
 #include "engine/step/motion/integrate.hpp"
 #include "engine/step/threads/halo.hpp"
 
@@ -142,6 +143,7 @@ struct ThreadContacts {
     std::vector<Found> found;          // one for each group
     std::vector<Soon> soon;            // one for each group of pairs
     std::vector<MeshLists> meshes;     // one for each group of meshes
+    ScreenWatch screens;               // what may be screened from each other
     std::optional<MeshFault> fault;    // the first one; it ends the run
     double skin = 0;                   // m, of the candidates
     std::vector<Pair> incoming;        // listed pairs of a grain of an earlier thread and an own grain

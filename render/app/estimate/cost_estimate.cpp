@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/own_folder.hpp"
 #include "engine/base/random.hpp"
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/bench_run.hpp"
@@ -190,25 +191,6 @@ double processor_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-class ProbeFolder {
-  public:
-    ProbeFolder() {
-        std::string name = (fs::temp_directory_path() / "grainreel-check-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw RunError(name + ": cannot be made");
-        path_ = name;
-    }
-    ~ProbeFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    ProbeFolder(const ProbeFolder&) = delete;
-    ProbeFolder& operator=(const ProbeFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
-
 void add_grain(State& frame, std::size_t species, double radius, const Vec3& position) {
     frame.id.push_back(static_cast<std::int32_t>(frame.size()));
     frame.species.push_back(static_cast<std::int32_t>(species));
@@ -254,7 +236,7 @@ struct FilmUse {
 // Processor time of a film of `most` frames, or of fewer when they take long.
 FilmUse use_of_film(const FilmedScene& scene, const ThreadPlan& threads, const State& bed, int most,
                     const HeldSignals& signals) {
-    const ProbeFolder folder;
+    const ScratchFolder folder("check");
     FilmOptions options;
     options.folder = folder.path();
     options.raster_threads = threads.raster;

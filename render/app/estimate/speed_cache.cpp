@@ -63,8 +63,9 @@ SpeedCache::SpeedCache()
 }
 
 void SpeedCache::read() {
-    if (!fs::is_regular_file(path_) || fs::file_size(path_) > largest_file) return;
-    const Json all = Json::parse(std::ifstream(path_));
+    if (!is_own(path_) || !is_plain(path_) || fs::file_size(path_) > largest_file) return;
+    std::ifstream file = read_plain(path_);
+    const Json all = Json::parse(file);
     if (all.at("machine").get<std::string>() != machine_) return;
     for (const auto& [threads, speed] : all.at("engine").items())
         if (sane_engine(speed.get<double>())) engine_[std::stoi(threads)] = speed.get<double>();

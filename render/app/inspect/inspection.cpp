@@ -89,10 +89,8 @@ class Inspection {
     void open(Reporter& reporter) {
         std::error_code ignored;
         const bool foreign = is_foreign(asks_.run);
-        if (const std::string option = given_reading(asks_.reading); !foreign && !option.empty())
-            throw UserError(
-                fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
-                            option, asks_.run.string()));
+        check_reading(asks_.run, asks_.reading);
+        if (!foreign) refuse_other_folder(asks_.run);
         bring_back_to_read(asks_.run, reporter);
         // A number of a frame counts the frames of the named file, so the other files of its series are left
         // out.
@@ -202,7 +200,7 @@ class Inspection {
                     fmt::format("{:.6g} s was not kept; this is the nearest kept moment", asked.time));
             const State& moment = run.moments()[asked.nearest];
             return {std::move(*kept),
-                    {moment.time, moment.step,
+                    {moment.time, run.written_step(asked.nearest),
                      fmt::format("{}kept as number {} of {}", asked.kept ? last : "", asked.nearest + 1,
                                  run.moments().size())}};
         }

@@ -208,7 +208,8 @@ std::string moment_line(const Answer& answer) {
     if (!answer.moment) return "";
     const AnswerMoment& moment = *answer.moment;
     if (!std::isfinite(moment.time)) return "At a time that is not known";
-    return fmt::format("At {:.6g} s (step {}): {}", moment.time, moment.step, moment.how);
+    const std::string step = moment.step ? fmt::format(" (step {})", *moment.step) : "";
+    return fmt::format("At {:.6g} s{}: {}", moment.time, step, moment.how);
 }
 
 std::string text_of(const Answer& answer) {
@@ -235,7 +236,7 @@ std::string json_of(const Answer& answer) {
     Json all = {{"tables", std::move(tables)}, {"notes", answer.notes}};
     if (const auto& moment = answer.moment)
         all["moment"] = {{"time", std::isfinite(moment->time) ? Json(moment->time) : Json(nullptr)},
-                         {"step", moment->step},
+                         {"step", moment->step ? Json(*moment->step) : Json(nullptr)},
                          {"how", moment->how}};
     return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

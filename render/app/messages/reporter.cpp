@@ -14,6 +14,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/run/import/import_run.hpp"
 #include "render/app/messages/stop_signal.hpp"
 
 namespace grainreel {
@@ -93,8 +94,14 @@ void Reporter::print(const char* kind, const char* colour, const std::string& te
     put(line(kind, colour, text));
 }
 
+void Reporter::name_import(const std::filesystem::path& folder, const std::filesystem::path& from) {
+    imports_.emplace_back(folder, from);
+}
+
 std::string Reporter::line(const char* kind, const char* colour, const std::string& said) const {
-    const std::string text = message_text(said);
+    std::string known = said;
+    for (const auto& [folder, from] : imports_) known = named_as(std::move(known), folder, from);
+    const std::string text = message_text(known);
     if (options_.form == ReporterOptions::Form::json) {
         const nlohmann::ordered_json object = {{"event", kind}, {"text", text}};
         return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

@@ -4,9 +4,12 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "engine/run/folder/folder_job.hpp"
 #include "engine/run/folder/listener.hpp"
@@ -44,6 +47,8 @@ class Reporter final : public Listener {
     std::string last_words() const;
     // Takes the progress line off the terminal.
     void clear();
+    // From now on, messages name the files that an import was made of, in place of its folder in the cache.
+    void name_import(const std::filesystem::path& folder, const std::filesystem::path& from);
 
   private:
     using Watch = std::chrono::steady_clock;
@@ -56,6 +61,7 @@ class Reporter final : public Listener {
     bool line_shown_ = false;
     std::optional<Progress> last_;  // the progress shown last
     Watch::time_point last_time_;
+    std::vector<std::pair<std::filesystem::path, std::filesystem::path>> imports_;  // folder, its files
 };
 
 std::string to_string(Progress::Stage stage);

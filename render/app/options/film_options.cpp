@@ -53,6 +53,17 @@ std::filesystem::path output_base() {
     return base;
 }
 
+void check_folder_name(const std::filesystem::path& out) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(out, ignored)) return;
+    const std::string end = out.extension().string();
+    for (const char* one : {".png", ".mp4", ".webm", ".mkv", ".gif", ".y4m"})
+        if (end == one)
+            throw UserError(
+                fmt::format("--out {}: names the folder, in which the files are made; give a name without {}",
+                            out.string(), end));
+}
+
 void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, const std::string& about) {
     const auto take = [&out](const std::string& folder) {
         check_typed("--out", folder);

@@ -195,17 +195,23 @@ std::string joined(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// Adds the keys of the film's file.
-void add_file_keys(CLI::App& verb, Assignments& sets) {
+void add_purpose(CLI::App& verb, Assignments& sets) {
     add_key(verb, sets, "--for", "film.for", "WHAT",
             "Purpose that sets size, rate, format, quality and largest file: " + joined(purpose_names()) +
                 " (docs/guide/films.md); values that are set elsewhere stay");
+}
+
+// Adds the keys of the film's file.
+void add_file_keys(CLI::App& verb, Assignments& sets) {
     add_key(verb, sets, "--format", "film.format", "FORMAT",
             joined(all_of(film_format_words)) + " (docs/guide/films.md) [mp4]");
     add_key(verb, sets, "--max-size", "film.max_size", "SIZE",
             "Largest size of the file, as in 10MB; for mp4, webm and gif");
     add_key(verb, sets, "--sheet", "film.sheet", "CxR",
             "Make sheet.png too, a contact sheet of C columns and R rows");
+}
+
+void add_transparent(CLI::App& verb, Assignments& sets) {
     verb.add_flag_callback(
         "--transparent",
         [&sets] {
@@ -220,17 +226,17 @@ constexpr std::array of_film_file = {"film.format",   "film.quality", "film.pres
 
 }  // namespace
 
-Assignments sets_for_still(Assignments sets) {
+Assignments sets_for_still(Assignments sets, const char* option) {
     bool clear = false;
     for (const Assignment& set : sets) {
         if (std::find(of_film_file.begin(), of_film_file.end(), set.key()) != of_film_file.end())
-            throw UserError(
-                fmt::format("{}: is of a film, and --at draws one PNG file; leave it out", set.place()));
+            throw UserError(fmt::format("{}: is of a film, and {} draws one PNG file; leave it out",
+                                        set.place(), option));
         clear = clear || set.key() == "film.transparent";
     }
     if (!clear) return sets;
-    sets.push_back({"film.format=png", "--at"});
-    sets.push_back({"film.max_size=none", "--at"});
+    sets.push_back({"film.format=png", option});
+    sets.push_back({"film.max_size=none", option});
     return sets;
 }
 
@@ -246,13 +252,32 @@ void add_sets(CLI::App& verb, Assignments& sets, const char* about) {
         ->take_all();
 }
 
+namespace {
+
+constexpr const char* about_title = "Title on the film [that of the scene]";
+constexpr const char* about_threads = "Processors to keep busy [as many as there are]";
+
+}  // namespace
+
 void add_picture_keys(CLI::App& verb, Assignments& sets) {
+    add_purpose(verb, sets);
     add_file_keys(verb, sets);
+    add_transparent(verb, sets);
     add_key(verb, sets, "--size", "film.size", "WxH",
             "Size of the film in pixels [the scene's, or 1920x1080]");
     add_key(verb, sets, "--fps", "film.rate", "N", "Frames a second of film [the scene's, or 30]");
-    add_key(verb, sets, "--title", "film.title", "TEXT", "Title on the film [that of the scene]");
-    add_key(verb, sets, "--threads", "run.threads", "N", "Processors to keep busy [as many as there are]");
+    add_key(verb, sets, "--title", "film.title", "TEXT", about_title);
+    add_key(verb, sets, "--threads", "run.threads", "N", about_threads);
+}
+
+void add_still_keys(CLI::App& verb, Assignments& sets) {
+    add_key(verb, sets, "--for", "film.for", "WHAT",
+            "With --png: purpose whose size the picture gets: " + joined(purpose_names()));
+    add_transparent(verb, sets);
+    add_key(verb, sets, "--size", "film.size", "WxH",
+            "Size of the picture in pixels [the scene's, or 1920x1080]");
+    add_key(verb, sets, "--title", "film.title", "TEXT", about_title);
+    add_key(verb, sets, "--threads", "run.threads", "N", about_threads);
 }
 
 void add_scene_keys(CLI::App& verb, Assignments& sets) {

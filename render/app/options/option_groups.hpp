@@ -34,17 +34,21 @@ void add_sets(CLI::App& verb, Assignments& sets, const char* about);
 // Keys of the film: --for, --format, --max-size, --sheet, --transparent, --size, --fps, --title; and
 // --threads.
 void add_picture_keys(CLI::App& verb, Assignments& sets);
+// Those of them that act on a single picture: --for, --transparent, --size, --title; and --threads.
+void add_still_keys(CLI::App& verb, Assignments& sets);
 // --set, the options of add_picture_keys(), --duration and --seed.
 void add_scene_keys(CLI::App& verb, Assignments& sets);
 // The settings for a single picture, which is a PNG file whatever format the scene's film has. Throws
-// UserError for keys of a film's file.
-Assignments sets_for_still(Assignments sets);
+// UserError for keys of a film's file. option: what asks for the picture, as in "--at".
+Assignments sets_for_still(Assignments sets, const char* option = "--at");
 // SCENE, and the options of add_scene_keys().
 void add_scene(CLI::App& verb, std::filesystem::path& scene, Assignments& sets);
 
 // Where the film goes, and what is kept of it: --out, --force, --frames, --no-film, --gl. about_out: the
 // description of --out. Throws UserError when the environment has a value that makes no sense.
 void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out);
+// Throws UserError where the name for a folder is that of a film or a picture, and no such folder is there.
+void check_folder_name(const std::filesystem::path& out);
 // --out of a verb that makes no film.
 void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, const std::string& about);
 // --gl: the library that makes OpenGL contexts.

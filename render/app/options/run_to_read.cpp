@@ -10,7 +10,6 @@
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/foreign/names.hpp"
-#include "engine/files/foreign/raw_series.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/handover/bring_back.hpp"
 #include "engine/handover/handover_folder.hpp"
@@ -61,23 +60,56 @@ void refuse_other_files(const fs::path& path) {
 
 }  // namespace
 
+void refuse_other_folder(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored) || is_handover(path) || fs::exists(path / "scene.toml", ignored) ||
+        fs::exists(path / "trajectory.nc", ignored))
+        return;
+    std::vector<fs::path> inside;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path, ignored))
+        if (entry.is_directory(ignored)) inside.push_back(entry.path());
+    std::sort(inside.begin(), inside.end());
+    for (const fs::path& folder : inside)
+        if (is_foreign(folder))
+            throw UserError(
+                fmt::format("{}: is no folder of a run; files of another program lie in {}; name "
+                            "that folder",
+                            path.string(), folder.string()));
+}
+
+void check_reading(const fs::path& path, const ReadingOptions& reading) {
+    const std::string option = given_reading(reading);
+    if (reading.moves_with_container && reading.container.empty())
+        throw UserError("--moves-with container: is about the container of a scene; add --container SCENE");
+    if (option.empty() || is_foreign(path)) return;
+    std::error_code ignored;
+    if (!fs::exists(path, ignored))
+        throw UserError(fmt::format("{}: there is no such file or folder", path.string()));
+    refuse_other_files(path);
+    refuse_other_folder(path);
+    throw UserError(fmt::format("{}: is for files of other programs, and {} {}", option, path.string(),
+                                fs::exists(path / "scene.toml", ignored) || path.extension() == ".toml"
+                                    ? "is ours"
+                                    : "holds none that can be read"));
+}
+
 RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Reporter& reporter) {
     if (!is_foreign(path)) {
         refuse_other_files(path);
-        if (const std::string option = given_reading(reading); !option.empty())
-            throw UserError(
-                fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
-                            option, path.string()));
+        check_reading(path, reading);
+        refuse_other_folder(path);
         bring_back_to_read(path, reporter);
         return {path, path.parent_path(), false};
     }
     ImportRequest request;
     request.from = path;
     request.reading = reading;
+    check_reading(path, reading);
     request.program_version = fmt::format("{} ({})", build_info::version, build_info::commit);
     const ShareWatcher watcher(reporter, Progress::Stage::reading);
     request.watcher = [&](double done) { return watcher(path.filename().string(), done); };
     const Imported run = cached_import(request);
+    reporter.name_import(run.folder, path);
     for (const std::string& line : run.news) reporter.info(line);
     return {run.folder, folder_around(path), true};
 }

@@ -16,6 +16,9 @@ namespace grainreel {
 void add_reading(CLI::App& verb, ReadingOptions& reading);
 // The name of one of these options that was given; empty for none.
 std::string given_reading(const ReadingOptions& reading);
+// Throws UserError where one of them is given and the path has no files of other programs: because nothing is
+// there, because the file is in no format that is read, or because it is a run of ours.
+void check_reading(const std::filesystem::path& path, const ReadingOptions& reading);
 
 struct RunToRead {
     std::filesystem::path folder;  // folder of a run, with scene.toml
@@ -31,6 +34,9 @@ std::filesystem::path folder_around(const std::filesystem::path& path);
 // there from that engine's dump, unless they are there already. Warns if that engine's run is not complete.
 // Throws as bring_back() does.
 void bring_back_to_read(const std::filesystem::path& path, Reporter& reporter);
+
+// Throws UserError for a folder that is none of a run, but has a folder inside with files of another program.
+void refuse_other_folder(const std::filesystem::path& path);
 
 // Finds the run, or imports the files and tells what was guessed and derived. Throws UserError when options
 // of add_reading() are given with a run of ours.

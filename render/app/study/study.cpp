@@ -5,6 +5,8 @@
 #include <numeric>
 #include <string_view>
 
+#include "engine/base/typed_time.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -34,11 +36,9 @@ struct TimedRows {
 // The rows within the window. A row at an end of the window counts although its time is rounded.
 TimedRows rows_within(const Reduction& how, const std::vector<double>& times,
                       const std::vector<double>& values) {
-    constexpr double rounding = 1e-9;  // relative rounding of a time
+    constexpr double step = 0;  // not known here
     TimedRows rows;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        const double slack = rounding * std::abs(times[i]);
-        if (times[i] + slack < how.from || times[i] - slack > how.to) continue;
+    for (const std::size_t i : typed_span(times, step, how.from, how.to)) {
         rows.times.push_back(times[i]);
         rows.values.push_back(values[i]);
     }

@@ -45,7 +45,7 @@ class Compare final : public Verb {
         add_camera_file(parser, camera_, CameraOptions::use);  // each panel has its own, so none is kept
         add_film(parser, film_,
                  "Folder of the film, which has a folder for each run [output/ and the scenes' names]");
-        add_no_cache(parser, film_.keep_packings);
+        no_cache_ = add_no_cache(parser, film_.keep_packings);
         for (const char* option : {"--part", "--parts"})
             parser
                 .add_option_function<std::string>(
@@ -63,7 +63,10 @@ class Compare final : public Verb {
         check_print_size(request_.print, request_.at.has_value(), "--at");
         film_.command = command;
         film_.program = program_info();
-        if (film_.out) RunFolder::check(*film_.out, film_.force);
+        if (film_.out) {
+            check_folder_name(*film_.out);
+            RunFolder::check(*film_.out, film_.force);
+        }
         bool any_foreign = false;
         for (std::filesystem::path& input : request_.inputs) {
             bring_back_to_read(input, reporter);
@@ -73,6 +76,7 @@ class Compare final : public Verb {
         }
         if (const std::string option = given_reading(reading_); !any_foreign && !option.empty())
             throw UserError(option + ": is for files of other programs, and none is compared");
+        check_used();
         use_camera_file(camera_, request_.sets);
         if (request_.at) request_.sets = sets_for_still(std::move(request_.sets));
         CompareJob comparison(film_, reporter, read_comparison(request_, film_));
@@ -80,6 +84,18 @@ class Compare final : public Verb {
     }
 
   private:
+    // Refuses an option that has no effect, because all inputs are finished runs, or all are scenes to be
+    // run. The inputs are files of scenes or folders of runs by now.
+    void check_used() const {
+        std::size_t runs = 0;
+        std::error_code ignored;
+        for (const std::filesystem::path& input : request_.inputs)
+            runs += std::filesystem::is_directory(input, ignored) ? 1 : 0;
+        if (no_cache_->count() > 0 && runs == request_.inputs.size())
+            throw UserError("--no-cache: is for scenes that are run, and all of these are finished runs");
+        if (!request_.replay && runs == 0)
+            throw UserError("--no-replay: is for finished runs, and all of these are scenes to be run");
+    }
     void add_vary(CLI::App& parser) {
         parser
             .add_option_function<std::string>(
@@ -106,6 +122,7 @@ class Compare final : public Verb {
     }
 
     CompareRequest request_;
+    CLI::Option* no_cache_ = nullptr;
     CameraFiles camera_;
     ReadingOptions reading_;
     FilmRequest film_;

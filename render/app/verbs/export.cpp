@@ -7,7 +7,6 @@
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
-#include "engine/files/foreign/raw_series.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/state_writer.hpp"
 #include "engine/scene/text/units.hpp"
@@ -73,10 +72,8 @@ class Export final : public Verb {
     }
 
     int run(Reporter& reporter) override {
-        if (const std::string option = given_reading(reading_); !option.empty() && !is_foreign(run_))
-            throw UserError(
-                fmt::format("{}: is for files of other programs, and {} is a run of ours or is not there",
-                            option, run_.string()));
+        check_reading(run_, reading_);
+        if (!is_foreign(run_)) refuse_other_folder(run_);
         if (!out_.empty()) check_free(out_, force_);
         bring_back_to_read(run_, reporter);
         StoredRunRequest request;
@@ -86,7 +83,8 @@ class Export final : public Verb {
         const ShareWatcher watcher(reporter, Progress::Stage::exporting);
         const Exported made = export_frames(run, format_, out_.empty() ? usual_name() : out_, choice_, force_,
                                             [&](double done) { return watcher(format_, done); });
-        if (choice_.at && std::abs(made.first - *choice_.at) > 1e-5 * std::abs(*choice_.at))
+        for (const std::string& line : made.news) reporter.info(line);
+        if (choice_.at && !made.is_asked)
             reporter.info(
                 fmt::format("--at: {:.6g} s was not kept; {:.6g} s is written, the kept moment that "
                             "is nearest",

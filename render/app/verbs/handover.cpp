@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/carry.hpp"
 #include "engine/handover/decks.hpp"
@@ -148,9 +149,10 @@ class Handover final : public Verb {
         reporter.info(fmt::format("{} for {} on {}, about {} there; {}", folder.string(),
                                   name_of(carried.engine), counted(carried.ranks, "rank"),
                                   duration_text(seconds), counted(carried.dumps.size(), "dump")));
-        reporter.info(fmt::format("run it:      sh {}/run.sh, or on a cluster: cd {} && sbatch job.slurm",
-                                  folder.string(), folder.string()));
-        reporter.info(fmt::format("draw it:     {} render {}", program_call(), folder.string()));
+        const std::string word = shell_word(folder.string());
+        reporter.info(fmt::format("run it:      sh {}, or on a cluster: cd {} && sbatch job.slurm",
+                                  shell_word((folder / "run.sh").string()), word));
+        reporter.info(fmt::format("draw it:     {} render {}", program_call(), word));
     }
 
     fs::path scene_;

@@ -92,9 +92,10 @@ class Inspect final : public Verb {
             ->check(not_empty())
             ->excludes(average);
         add_gl(parser, asks_.gl);
+        gl_ = parser.get_option("--gl");
         add_sets(parser, asks_.sets,
                  "With --pixel or --png: another value for a key of [film], as for render; may be repeated");
-        add_picture_keys(parser, asks_.sets);
+        add_still_keys(parser, asks_.sets);
         parser.option_defaults()->group("Answer");
         parser.add_option("--limit", asks_.limit, "Most grains in a list [10]")
             ->type_name("N")
@@ -107,6 +108,7 @@ class Inspect final : public Verb {
     int run(Reporter& reporter) override {
         if (!asks_.picture.empty()) check_picture_file(asks_.picture);
         check_options();
+        asks_.sets = sets_for_still(std::move(asks_.sets), asks_.picture.empty() ? "--pixel" : "--png");
         const Answer answer = inspected(asks_, reporter);
         print_result(asks_.json ? json_of(answer) : asks_.csv ? csv_of(answer) : text_of(answer));
         if (asks_.csv) tell_beside(answer, reporter);
@@ -136,6 +138,8 @@ class Inspect final : public Verb {
             throw UserError("--steady: is of the whole run; leave moment, mean and picture out");
         if (asks_.average && !asks_.pixel.empty())
             throw UserError("--average: --pixel is of one picture, so there is no mean; leave one out");
+        if (gl_->count() > 0 && asks_.picture.empty())
+            throw UserError("--gl: says what draws the picture; add --png");
         if (asks_.film_time && !asks_.draws())
             throw UserError("--film-time: says what a picture shows; add --png or --pixel");
         if (asks_.film_time && *asks_.film_time < 0)
@@ -221,6 +225,7 @@ class Inspect final : public Verb {
     }
 
     InspectRequest asks_;
+    CLI::Option* gl_ = nullptr;
 };
 
 }  // namespace

@@ -159,6 +159,9 @@ class Movie final : public Verb {
     int run(Reporter& reporter) override {
         film_.command = command;
         film_.program = program_info();
+        if (film_.out) check_folder_name(*film_.out);
+        if (!watched_ && place_.host != WatchPlace().host)
+            throw UserError("--watch-host: says where the page of --watch is shown; add --watch");
         if (!no_page_) film_.page = page_of_ended_run();
         use_camera_file(camera_, sets_);
         const FilmedScene scene = read_filmed_scene(scene_, sets_, measurable_in);

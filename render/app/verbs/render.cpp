@@ -6,6 +6,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/program.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/driver/pace.hpp"
@@ -104,10 +105,12 @@ class Render final : public Verb {
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
         // The files may be large, or of a job that has not begun.
-        if (is_still())
+        if (is_still()) {
             check_still(film_, request_);
-        else if (film_.out && slurm_ == 0)
+        } else if (film_.out && slurm_ == 0) {
+            check_folder_name(*film_.out);
             RunFolder::check(*film_.out, film_.force);
+        }
         if (follow_) return follow(reporter);
         const RunToRead read = run_to_read(request_.run, reading_, reporter);
         request_.run = read.folder;
@@ -145,7 +148,7 @@ class Render final : public Verb {
         if (!handed_over && std::filesystem::exists(request_.run / "scene.toml", ignored))
             throw UserError(fmt::format(
                 "--follow: is for files of other programs; a run of ours is shown by: {} watch {}",
-                program_call(), request_.run.string()));
+                program_call(), shell_word(request_.run.string())));
         FollowFilm film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle()},
                         reporter);
         keep_camera_file(camera_, film.scene().film.camera);

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/team.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/former_files.hpp"
 #include "engine/files/frames/saved_scene.hpp"
@@ -68,6 +69,7 @@ class Resume final : public Verb {
             ->type_name("N")
             ->check(CLI::Range(1, 1024));
         add_gl(parser, film_.gl);
+        parser.get_option("--gl")->excludes(parser.get_option("--no-film"));
         add_reporting(parser, report);
     }
 
@@ -77,8 +79,8 @@ class Resume final : public Verb {
         if (!no_page_) film_.page = page_of_ended_run();
         const fs::path folder = folder_of_run(run_);
         if (is_handover(folder))
-            throw UserError(fmt::format("{}: was handed over; go on with: sh {}/run.sh --continue",
-                                        folder.string(), folder.string()));
+            throw UserError(fmt::format("{}: was handed over; go on with: sh {} --continue", folder.string(),
+                                        shell_word((folder / "run.sh").string())));
         scene_file(folder);
         check_all_plain(folder);
         std::shared_ptr<FolderLock> lock = locked(folder);
@@ -101,7 +103,9 @@ class Resume final : public Verb {
         const int threads = plan_threads(processors, film_.film, scene.grains()).engine;
         ResumePoint point = find_resume_point(scene, plan, folder, threads,
                                               film_.film ? reach_of_film(scene, plan) : FramesReach());
-        point.accepted = read_run_json(folder / "run.json").record.accepted;
+        const RunJson former = read_run_json(folder / "run.json").record;
+        point.accepted = former.accepted;
+        point.deepest = former.deepest;
         if (!changes.empty()) take_up(changes, folder, scene, plan, point, threads);
         reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
                                   plan.clock.time(point.simulation.step()), scene.run.duration));
@@ -124,12 +128,13 @@ class Resume final : public Verb {
 
     // Continues a run of `movie --engine`: the other engine goes on from its own restart file.
     int go_on_elsewhere(const fs::path& folder, std::shared_ptr<FolderLock> lock, Reporter& reporter) {
-        if (until_ || more_ || !accept_.empty())
+        if (until_ || more_ || threads_ || !accept_.empty())
             throw UserError(fmt::format(
                 "{}: another engine ran this, and its deck cannot be changed; leave out {}", folder.string(),
-                until_  ? "--until"
-                : more_ ? "--for"
-                        : "--accept"));
+                until_     ? "--until"
+                : more_    ? "--for"
+                : threads_ ? "--threads"
+                           : "--accept"));
         FilmedScene scene = read_filmed_scene(scene_file(folder), {}, measurable_in);
         const Plan plan = plan_with_film(scene);
         film_.out = folder;

@@ -122,6 +122,8 @@ class StudyVerb final : public Verb {
                                                "Run nothing; gather the results of those commands");
         dry->excludes(print)->excludes(collect);
         print->excludes(collect);
+        for (const char* of_runs : {"--films", "--retry", "--jobs", "--no-cache"})
+            collect->excludes(parser.get_option(of_runs));
     }
 
     // Chooses the members of the variants in --variant; members of other variants are left as they are.

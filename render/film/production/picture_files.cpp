@@ -27,12 +27,11 @@ std::string flash_remedy(const Film& film) {
     if (std::none_of(segments.begin(), segments.end(), locked))
         return "slow it down (film.segment playback) or lock it to a phase";
     if (std::all_of(segments.begin(), segments.end(), locked))
-        return "show means over some periods (film.segment average = 4), fewer frames a second (film.rate), "
-               "or "
-               "colours nearer in brightness";
-    return "slow it down (film.segment playback), or show means over some periods in locked segments "
-           "(average = "
-           "4)";
+        return "give the species colours nearer in brightness (species.colour), or show 6 frames a second or "
+               "fewer "
+               "(film.rate)";
+    return "slow it down (film.segment playback), and give the species colours nearer in brightness "
+           "(species.colour)";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/typed_time.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/sampler.hpp"
 #include "render/film/sampling/timeline.hpp"
@@ -86,13 +87,18 @@ std::vector<Due> RedrawJob::drawn() const {
 
 // Chooses the film's pictures between two moments.
 void RedrawJob::choose_pictures(const RenderRequest& what) {
-    constexpr double hair = 1e-9;  // s: tolerance of times
     const FilmSchedule& film = source_.film();
     const std::vector<Due> all = film.shots();
     scene_.film.segments = source_.segments();
+    // Pictures of one moment, as where segments meet, have no time between them.
+    std::vector<double> times;
+    for (const Due& shot : all)
+        if (const double time = film.moment(shot.step).time; times.empty() || time > times.back())
+            times.push_back(time);
+    const std::vector<std::size_t> inside = typed_span(times, source_.clock().step, what.from, what.to);
     for (const Due& shot : all) {
         const double time = film.moment(shot.step).time;
-        if (time >= what.from.value_or(time) - hair && time <= what.to.value_or(time) + hair)
+        if (!inside.empty() && time >= times[inside.front()] && time <= times[inside.back()])
             shots_.push_back(shot);
     }
     if (shots_.empty() && !all.empty())

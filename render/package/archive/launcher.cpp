@@ -12,6 +12,9 @@ namespace {
 
 constexpr int bad_archive = 2;
 constexpr int longest_path = 4096;
+constexpr const char* program_name = "lib/grainreel/grainreel";
+// Rights that are looked for apart from access(), which finds that root may do anything.
+constexpr mode_t may_read = S_IRUSR | S_IRGRP | S_IROTH, may_run = S_IXUSR | S_IXGRP | S_IXOTH;
 
 struct Path {
     char text[longest_path];
@@ -75,6 +78,10 @@ void check_files(const Path& folder) {
         struct stat facts {};
         if (::stat(inside(folder, name).text, &facts) != 0) incomplete(folder, name, "is missing");
         if (facts.st_size != size) incomplete(folder, name, "is not whole");
+        if ((facts.st_mode & may_read) == 0 || ::access(inside(folder, name).text, R_OK) != 0)
+            incomplete(folder, name, "may not be read");
+        if (std::strcmp(name, program_name) == 0 && (facts.st_mode & may_run) == 0)
+            incomplete(folder, name, "may not be run");
     }
     incomplete(folder, list, "is not whole");
 }
@@ -84,7 +91,7 @@ void check_files(const Path& folder) {
 int main(int, char** words) {
     const Path folder = archive_folder();
     check_files(folder);
-    const Path program = inside(folder, "lib/grainreel/grainreel");
+    const Path program = inside(folder, program_name);
     ::execv(program.text, words);
     if (errno == ENOENT)  // the program is there, but the loader of glibc that it names is not
         stop("this system has no glibc; grainreel's archive needs Debian 12, or a Linux with a glibc as new");

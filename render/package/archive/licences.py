@@ -27,23 +27,34 @@ class Packages:
         self.loader = loader
         self.dpkg = ["dpkg-query", f"--admindir={loader.inside('/var/lib/dpkg')}"]
 
+    # dpkg-query reads its whole list of files for each call, so one call asks for all. It ends with 1 if it does not know
+    # one of them, and tells the others all the same.
     def _ask(self, *words):
-        done = subprocess.run([*self.dpkg, *words], capture_output=True, text=True)
-        return done.stdout if done.returncode == 0 else ""
+        return subprocess.run([*self.dpkg, *words], capture_output=True, text=True).stdout.splitlines()
 
-    def owner(self, file):
-        """The package that a file belongs to, as dpkg names it (with its architecture), or an empty word."""
-        path = "/" + str(Path(file).relative_to(self.loader.inside("/")))
-        for name in (path, path.removeprefix("/usr"), "/usr" + path):  # /lib may be a link to /usr/lib
-            said = self._ask("-S", name)
-            if said:
-                return said.splitlines()[0].split(": ")[0].split(",")[0]
-        return ""
+    def owners(self, files):
+        """{file: package that it belongs to, as dpkg names it (with its architecture)}, without files of no package."""
+        names = {}  # a path as dpkg may know it: the file. /lib may be a link to /usr/lib.
+        for file in files:
+            path = "/" + str(Path(file).relative_to(self.loader.inside("/")))
+            for name in ("/usr" + path, path.removeprefix("/usr"), path):
+                names[name] = file
+        owners = {}
+        for line in self._ask("-S", *names) if names else []:
+            packages, _, path = line.rpartition(": ")
+            if path in names:
+                owners.setdefault(names[path], packages.split(",")[0])
+        return owners
 
-    def source(self, package):
-        """The package's source and its version: ("x264", "2:0.164.3095+gitbaee400-3"); empty words for no package."""
-        said = self._ask("-W", "-f", "${source:Package} ${source:Version}\n", package).split()
-        return (said[0], said[1]) if len(said) == 2 else ("", "")
+    def sources(self, packages):
+        """{package: (its source, the version)}, as in ("x264", "2:0.164.3095+gitbaee400-3"), without unknown packages."""
+        form = "${binary:Package} ${Package} ${source:Package} ${source:Version}\n"
+        sources = {}
+        for line in self._ask("-W", "-f", form, *packages):
+            words = line.split()
+            if len(words) == 4:
+                sources[words[0]] = sources[words[1]] = (words[2], words[3])
+        return {package: sources[package] for package in packages if package in sources}
 
     def copyright(self, package):
         return self.loader.inside(f"/usr/share/doc/{package.split(':')[0]}/copyright")
@@ -53,24 +64,23 @@ def write(folder, files, ffmpeg, packages):
     """Writes the list and the licences. files: {name in the archive: file that it was copied from}; ffmpeg: the folder
     of an FFmpeg that was built from Debian's source, or None."""
     (folder / "common").mkdir(parents=True)
-    rows, owners = [], set()
+    built = {file for file in files.values() if ffmpeg and file.is_relative_to(ffmpeg)}
+    owners = packages.owners([file for file in files.values() if file not in built])
+    sources = packages.sources([*sorted(set(owners.values())), *COMPILED_IN])
+    rows = []
     for name, file in sorted(files.items()):
-        if ffmpeg and file.is_relative_to(ffmpeg):
+        if file in built:
             origin, version = (ffmpeg / "source").read_text().split()
             rows.append((name, "built for this archive, see ffmpeg.txt", origin, version))
             continue
-        package = packages.owner(file)
-        if not package:
+        if file not in owners:
             raise SystemExit(f"archive: {file} belongs to no package of Debian, so its licence is not known; "
                              "make the archive where all libraries are Debian's")
-        owners.add(package)
-        rows.append((name, package, *packages.source(package)))
+        rows.append((name, owners[file], *sources.get(owners[file], ("", ""))))
     for package in COMPILED_IN:
-        source, version = packages.source(package)
-        if source:
-            owners.add(package)
-            rows.append(("(compiled in)", package, source, version))
-    for package in owners:
+        if package in sources:
+            rows.append(("(compiled in)", package, *sources[package]))
+    for package in {*owners.values(), *(name for name in COMPILED_IN if name in sources)}:
         shutil.copy(packages.copyright(package), folder / package.split(":")[0])
     if ffmpeg:
         shutil.copy(ffmpeg / "licence", folder / "ffmpeg")

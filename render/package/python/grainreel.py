@@ -27,9 +27,11 @@ import xarray
 __all__ = ["GrainreelError", "Run", "Running", "open", "render", "run", "start"]
 __version__ = "1.0.0"
 
-# Ends of columns in measures.csv that are units; a column without one is a pure number.
+# Ends of columns in measures.csv that are units, and the one whose name does not end with its unit. All others are pure
+# numbers.
 _UNITS = {"s": "s", "m": "m", "J": "J", "N": "N", "W": "W", "Hz": "Hz", "kg": "kg", "Pa": "Pa", "degree": "degree",
-          "turns": "turn"}
+          "turns": "turn", "N.m": "N.m"}
+_UNITS_OF_COLUMNS = {"outflow_rate": "kg/s"}
 
 
 class GrainreelError(Exception):
@@ -125,6 +127,8 @@ def open(run):  # as netCDF4 and xarray have it
 
 
 def _unit_of(column):
+    if column in _UNITS_OF_COLUMNS:
+        return _UNITS_OF_COLUMNS[column]
     parts = column.split("_")
     return _UNITS.get(parts[-1], "1") if len(parts) > 1 else "1"
 

@@ -220,13 +220,13 @@ std::uint8_t speed_byte(double speed, double lowest, double highest) {
     return static_cast<std::uint8_t>(1 + std::lround(253 * std::clamp(share, 0.0, 1.0)));
 }
 
-PageBed bed_frames_of(const StateArchive& run, const std::vector<std::size_t>& chosen,
-                      const PageProgress& progress, const PageContacts& contacts) {
+PageBed page_bed_of(const StateArchive& run, const std::vector<std::size_t>& chosen,
+                    const PageProgress& progress, const PageContacts& contacts) {
     return BedWriter(run, progress, contacts).write(chosen, {});
 }
 
-PageBed bed_frames(const StateArchive& run, std::size_t most_bytes, const PageProgress& progress,
-                   const PageContacts& contacts) {
+PageBed page_bed(const StateArchive& run, std::size_t most_bytes, const PageProgress& progress,
+                 const PageContacts& contacts) {
     const std::size_t all = run.moments().size();
     const double a_moment =
         usual_packed * static_cast<double>(std::max<std::size_t>(1, most_grains_at_once(run)));

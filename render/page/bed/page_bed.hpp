@@ -6,7 +6,7 @@
 //   moment before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence; and, where the
 //   film colours its grains by a quantity, N bytes of that (film_colours.hpp).
 // A contact number of 255 is not known. Where a grain is not present, its speed and presence are 0, and its
-// place repeats the one before. render/page/html/bed_frames.js reads them.
+// place repeats the one before. render/page/html/page_bed.js reads them.
 #pragma once
 
 #include <cstdint>
@@ -89,11 +89,11 @@ constexpr std::size_t kMostGrainsOnPage = 100000;
 // take more than half of the bytes. The first moment always stays. If there are more grains than
 // kMostGrainsOnPage, the page has those that lie nearest to the plane x = 0 when they are first seen. Throws
 // DamagedFrame.
-PageBed bed_frames(const StateArchive& run, std::size_t most_bytes,
-                   const PageProgress& progress = kNoPageProgress, const PageContacts& contacts = {});
+PageBed page_bed(const StateArchive& run, std::size_t most_bytes,
+                 const PageProgress& progress = kNoPageProgress, const PageContacts& contacts = {});
 // The page's frames at these moments. chosen: rising indices of the run's moments.
-PageBed bed_frames_of(const StateArchive& run, const std::vector<std::size_t>& chosen,
-                      const PageProgress& progress = kNoPageProgress, const PageContacts& contacts = {});
+PageBed page_bed_of(const StateArchive& run, const std::vector<std::size_t>& chosen,
+                    const PageProgress& progress = kNoPageProgress, const PageContacts& contacts = {});
 
 // Ratio of the highest to the lowest speed, or force, that a byte can tell. The error of a byte follows from
 // it: 2.3 %, as bed_about() (page_parts.cpp) tells the reader.

@@ -8,7 +8,7 @@ class BedPanel {
      */
     constructor(facts, bytes, runTime, n = "", forceBytes = null, meshBytes = null) {
         this.n = n;
-        this.frames = new BedFrames(facts, bytes);
+        this.frames = new PageBed(facts, bytes);
         this.facts = facts;
         this.runTime = runTime;
         this.forces = facts.forces && forceBytes ? new PairForces(facts.forces, forceBytes, facts.grains) : null;
@@ -40,7 +40,7 @@ class BedPanel {
     /** Takes other moments of the same run. */
     take(facts, bytes) {
         const chosen = this.viewer.chosen >= 0 ? this.frames.ids[this.viewer.chosen] : -1;
-        this.frames = new BedFrames(facts, bytes);
+        this.frames = new PageBed(facts, bytes);
         this.facts = facts;
         this.viewer.take(this.frames, new Walls(facts.slabs, facts.box));
         this.viewer.chosen = this.frames.ids.indexOf(chosen);

@@ -3,7 +3,7 @@
 // The bytes are, for each key moment of P pairs: low, middle and high bytes of the first grain's place in the list of
 // grains, as its difference from the pair before (P each); low, middle and high bytes of the second grain's place itself,
 // or of 2^24 - 1 - face for a wall; P bytes of normal force: b from 1 on stands for lowest (highest / lowest)^((b - 1) / 253).
-// PairForcesWriter (render/page/bed/bed_frames.cpp) writes them.
+// PairForcesWriter (render/page/bed/page_bed.cpp) writes them.
 const firstOfWalls = 0xffffff - 1000; // numbers above this one are those of walls
 
 class PairForces {

@@ -152,7 +152,7 @@ void LiveRun::read_bed_again() {
         if (film_has_scale(filmed.scene)) film.emplace(filmed.scene, run, run.clock(), run.from());
         PageContacts beside;
         beside.film = film ? &*film : nullptr;
-        const PageBed bed = bed_frames_of(run, shown_of(moments.size()), kNoPageProgress, beside);
+        const PageBed bed = page_bed_of(run, shown_of(moments.size()), kNoPageProgress, beside);
         make_meshes(filmed.scene);
         bed_step_ = moments.back().step;
         bed_time_ = moments.back().time;

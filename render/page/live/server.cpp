@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/word_reader.hpp"
 
 namespace grainreel {
 
@@ -44,6 +45,21 @@ void let_go(void* held) {
 std::string header_of(MHD_Connection* connection, const char* name) {
     const char* value = MHD_lookup_connection_value(connection, MHD_HEADER_KIND, name);
     return value != nullptr ? value : "";
+}
+
+// How many headers of a request have this name, which is given in lower case.
+std::size_t count_of(MHD_Connection* connection, std::string_view name) {
+    struct Count {
+        std::string_view name;
+        std::size_t times;
+    } count{name, 0};
+    const auto take = [](void* all, MHD_ValueKind, const char* key, const char*) {
+        auto& to = *static_cast<Count*>(all);
+        to.times += same_word(key, to.name) ? 1 : 0;
+        return MHD_YES;
+    };
+    MHD_get_connection_values(connection, MHD_HEADER_KIND, take, &count);
+    return count.times;
 }
 
 }  // namespace
@@ -111,6 +127,8 @@ struct WatchServer::Impl {
             busy.headers = {{"Retry-After", "2"}};
             return queue(connection, busy);
         }
+        if (count_of(connection, "host") > 1)
+            return queue(connection, text_answer(MHD_HTTP_BAD_REQUEST, "This request names two hosts.\n"));
         WatchRequest request;
         request.path = url;
         request.host = header_of(connection, "Host");

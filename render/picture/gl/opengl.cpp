@@ -67,8 +67,21 @@ void choose_software_driver() {
     unsetenv("MESA_GLSL_VERSION_OVERRIDE");
 }
 
+namespace {
+
+// Mesa maps its cache of shaders into memory. If the disk of the cache is full, the first write there ends
+// the process (SIGBUS). Our few shaders are compiled in 30 ms, so they are not kept, unless the user says
+// otherwise.
+void keep_no_shaders() {
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+    setenv("MESA_GLSL_CACHE_DISABLE", "true", 0);  // its name before Mesa 21
+}
+
+}  // namespace
+
 std::unique_ptr<Context> make_context(Provider provider, int raster_threads) {
     need_addresses(kAddressesOfContext);
+    keep_no_shaders();
     if (provider == Provider::egl) return make_egl_context(raster_threads);
     if (provider == Provider::osmesa) return make_osmesa_context(raster_threads);
     std::string missing;

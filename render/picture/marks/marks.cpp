@@ -265,6 +265,11 @@ std::string words_of_rings(const FilmShows& look) {
     return ringed;
 }
 
+// " over a period", or over as many as the film says.
+std::string over_periods(const Film& film) {
+    return film.periods > 1 ? fmt::format(" over {} periods", film.periods) : " over a period";
+}
+
 }  // namespace
 
 TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scale, double x, double y,
@@ -275,11 +280,11 @@ TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scal
     MarksLegend legend(writer, x, y, wrap);
     if (look.arrows.across > 0)
         legend.arrow(arrow_scale(scene) * scale, Dimension::speed, palette.ink, legend.pen(),
-                     look.arrows.period ? "mean velocity over a period" : "mean velocity");
+                     "mean velocity" + (look.arrows.period ? over_periods(scene.film) : ""));
     if (look.streamlines.across > 0)
         legend.line(palette.ink, widest_streamline(scene.film.height),
                     fmt::format("streamlines{}, this wide from {} on",
-                                look.streamlines.period ? " over a period" : "",
+                                look.streamlines.period ? over_periods(scene.film) : "",
                                 quantity_text(look.streamlines.speed, Dimension::speed)));
     if (look.wall_forces.wanted)
         legend.arrow(wall_force_scale(scene) * scale, Dimension::force, palette.wall_force,

@@ -309,6 +309,42 @@ TEST_F(FollowedJob, EachVerbSaysWhyTheRunIsShort) {
     }
 }
 
+// Commands that are printed can be pasted, whatever the folder is called.
+TEST_F(FollowedJob, PrintedCommandsAreQuoted) {
+    const Ended written = program({"handover", "ball.toml", "--to", "lammps", "--out", "my job"});
+    EXPECT_EQ(written.status, 0);
+    EXPECT_THAT(written.err, tells({"run it", "sh 'my job/run.sh'", "cd 'my job'"}));
+    EXPECT_THAT(written.err, tells({"draw it", "render 'my job'"}));
+    EXPECT_THAT(program({"resume", "my job"}).err, tells_only({"my job", "sh 'my job/run.sh' --continue"}));
+    EXPECT_THAT(program({"render", "my job"}).err, tells_only({"my job", "sh 'my job/run.sh'"}));
+}
+
+// A job that goes on keeps the log that told why the one before ended, also where it cannot go on.
+TEST_F(FollowedJob, AJobThatGoesOnKeepsTheLogOfTheOneBefore) {
+    fs::create_directory(here / "bin");
+    write_text(here / "bin/mpirun", "#!/bin/sh\necho run > log.lammps\necho said\nexit 0\n");
+    fs::permissions(here / "bin/mpirun", fs::perms::owner_all);
+    const auto run = [&](const std::string& how) {
+        const std::string command =
+            fmt::format("cd '{}' && PATH=\"$PWD/bin:$PATH\" ENGINE=true sh job/run.sh {} 2> said",
+                        here.path().string(), how);
+        return WEXITSTATUS(std::system(command.c_str()));
+    };
+    write_text(here / "job/log.lammps", "why\n");
+    EXPECT_EQ(run("--continue"), 2);  // there is no restart file
+    EXPECT_EQ(text_of(here / "job/log.lammps"), "why\n");
+    add(0, 3);
+    write_text(here / "job/lammps.restart.100", "");
+    write_text(here / "job/out.lammps", "what\n");
+    EXPECT_EQ(run("--continue"), 0) << text_of(here / "said");
+    EXPECT_EQ(run("--continue"), 0) << text_of(here / "said");
+    EXPECT_EQ(text_of(here / "job/log.lammps.1"), "why\n");
+    EXPECT_EQ(text_of(here / "job/out.lammps.1"), "what\n");
+    EXPECT_EQ(text_of(here / "job/log.lammps.2"), "run\n");
+    EXPECT_EQ(run(""), 0);
+    EXPECT_FALSE(fs::exists(here / "job/log.lammps.1")) << "a job from the start begins with nothing";
+}
+
 // A stand-in for mpirun, whose banner comes after the engine's error.
 TEST_F(FollowedJob, TheEnginesErrorIsTheLastThatRunShSays) {
     fs::create_directory(here / "bin");

@@ -80,5 +80,14 @@ TEST_F(GlChoice, WithoutEitherBothAreNamed) {
     EXPECT_THAT(ended.err, AllOf(HasSubstr("libosmesa6"), HasSubstr("libegl-mesa0")));
 }
 
+// A cache of shaders on a full disk ended the program.
+TEST_F(GlChoice, NoShadersAreKept) {
+    const Ended ended =
+        movie({}, {"XDG_CACHE_HOME=" + (here / "cache").string(), "HOME=" + here.path().string()});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_FALSE(fs::exists(here / "cache/mesa_shader_cache"));
+    EXPECT_FALSE(fs::exists(here / ".cache/mesa_shader_cache"));
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <random>
 
 #include "tests/cli/program.hpp"
 #include "tests/support/small_scene.hpp"
@@ -121,6 +122,71 @@ TEST(Steady, OfAConstantAndOfTooFewRows) {
     EXPECT_EQ(of(0, 0.01, 0, [](double, std::size_t) { return 7.0; }).batches, 0u);
     EXPECT_EQ(of(100, 0.01, 0, [](double, std::size_t) { return std::nan(""); }).batches, 0u);
 }
+
+// Equal values hang together, and still nothing is unknown about their mean.
+TEST(Steady, OfAConstantThatIsNoShortNumber) {
+    const Steadiness constant = of(200, 0.01, 0, [](double, std::size_t) { return 0.1; });
+    EXPECT_EQ(constant.verdict, Verdict::steady);
+    EXPECT_LT(constant.half_width, 1e-15);
+}
+
+// n values of an autoregressive process with the correlation phi are worth n (1 - phi) / (1 + phi).
+std::vector<double> autoregressive(std::size_t n, double phi, std::mt19937_64& random) {
+    std::vector<double> values(n);
+    const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) / 0x1p53; };
+    const auto normal = [&] {  // Box and Muller
+        return std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
+    };
+    for (std::size_t i = 0; i < n; ++i)
+        values[i] = i == 0 ? normal() : phi * values[i - 1] + std::sqrt(1 - phi * phi) * normal();
+    return values;
+}
+
+TEST(IndependentValues, OfCorrelatedOnes) {
+    std::mt19937_64 random(1);
+    for (const double phi : {-0.5, 0.0, 0.5, 0.9})
+        EXPECT_NEAR(independent_values(autoregressive(100'000, phi, random)) / 1e5, (1 - phi) / (1 + phi),
+                    0.02)
+            << phi;
+    std::vector<double> line;  // a drift is no correlation
+    for (std::size_t i = 0; i < 1000; ++i) line.push_back(static_cast<double>(i) + noise(i));
+    EXPECT_GT(independent_values(line), 500);
+}
+
+// Of 200 stationary series each. Most intervals of long series are given, and hold the mean 0. Of short ones
+// next to none is given, whether they seem steady or seem to drift.
+class SteadyOfCorrelatedRows : public testing::TestWithParam<int> {  // rows in a correlation time
+  protected:
+    struct Count {
+        int given = 0, held = 0;
+    };
+    Count count(int correlation_times) const {
+        std::mt19937_64 random(static_cast<std::uint64_t>(100 * GetParam() + correlation_times));
+        Count all;
+        for (int series = 0; series < 200; ++series) {
+            const auto rows = autoregressive(static_cast<std::size_t>(correlation_times * GetParam()),
+                                             std::exp(-1.0 / GetParam()), random);
+            const Steadiness answer =
+                of(rows.size(), 0.01, 0, [&](double, std::size_t i) { return rows[i]; });
+            if (answer.verdict == Verdict::too_short) continue;
+            ++all.given;
+            all.held += std::abs(answer.mean) <= answer.half_width;
+        }
+        return all;
+    }
+};
+
+TEST_P(SteadyOfCorrelatedRows, HoldTheMeanAsOftenAsTheySay) {
+    const Count hundred = count(100);
+    EXPECT_GE(hundred.given, 140);
+    EXPECT_GE(hundred.held, 0.90 * hundred.given);
+    EXPECT_LE(hundred.held, 0.98 * hundred.given);
+    EXPECT_LE(count(3).given, 2);
+    EXPECT_LE(count(10).given, 2);
+    EXPECT_LE(count(30).given, 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, SteadyOfCorrelatedRows, testing::Values(3, 20));
 
 class InspectOverTime : public testing::Test {
   protected:

@@ -133,6 +133,17 @@ TEST_F(Watched, RefusesAForeignHost) {
     EXPECT_EQ(parsed(old.receive()).status, 403);
 }
 
+// Which of two hosts counts is not said anywhere, so a request that names two is not answered.
+TEST_F(Watched, RefusesTwoHosts) {
+    make_run();
+    watch();
+    const std::string own = fmt::format("127.0.0.1:{}", port);
+    for (const std::string& other : {std::string("evil.example"), own}) {
+        EXPECT_EQ(get(port, "/measures.csv", own, "Host: " + other + "\r\n").status, 400);
+        EXPECT_NE(get(port, "/measures.csv", other, "hOST: " + own + "\r\n").status, 200);
+    }
+}
+
 TEST_F(Watched, IsForReadingAlone) {
     make_run();
     watch();

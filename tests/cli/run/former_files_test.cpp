@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using namespace test;
 
 // The end or the beginning of files that grow is copied; other files get a second name.
-TEST(FormerRun, IsPutBackAsItWas) {
+TEST(FormerFiles, IsPutBackAsItWas) {
     const TemporaryFolder here;
     const fs::path run = here / "run";
     fs::create_directories(run / "checkpoints");
@@ -69,7 +69,7 @@ TEST(FormerRun, IsPutBackAsItWas) {
 }
 
 // The new file is as if it had had its places from the beginning.
-TEST(FormerRun, FramesAreWrittenAgainWithMorePlaces) {
+TEST(FormerFiles, FramesAreWrittenAgainWithMorePlaces) {
     const TemporaryFolder here;
     TrajectoryInfo info;
     info.title = "A test";

@@ -244,7 +244,7 @@ TEST(PictureParts, LeaveOutWaysOfGrainsThatHaveComeOrGone) {
     EXPECT_TRUE(now.displacement[1].hasNaN());
 }
 
-TEST(KeptMoments, AreKeptUntilTheLastPictureThatWantsThem) {
+TEST(KeptStates, AreKeptUntilTheLastPictureThatWantsThem) {
     KeptStates kept;
     kept.want(40, {{10, true}, {20, false}});
     kept.want(50, {{20, true}, {30, false}});

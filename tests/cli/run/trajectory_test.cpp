@@ -30,8 +30,8 @@ TrajectoryInfo made_info(std::size_t capacity, bool orientation = false) {
     info.species = {"small ones", "big", "glued"};
     info.capacity = capacity;
     info.orientation = orientation;
-    info.cell_origin = {-0.1, -0.2, 0};
-    info.periodic_length = {0.2, 0, 0};
+    info.cell.origin = {-0.1, -0.2, 0};
+    info.cell.length = {0.2, 0, 0};
     return info;
 }
 
@@ -115,8 +115,7 @@ TEST(Trajectory, ReadsBackWhatWasWritten) {
     ASSERT_EQ(reader.frames(), 3u);
     EXPECT_EQ(reader.info().title, "A test");
     EXPECT_EQ(reader.info().species, made_info(5).species);
-    EXPECT_EQ(reader.info().cell_origin, made_info(5).cell_origin);
-    EXPECT_EQ(reader.info().periodic_length, made_info(5).periodic_length);
+    EXPECT_EQ(reader.info().cell, made_info(5).cell);
     for (std::size_t i = 0; i < 3; ++i) expect_same(reader.read(i), made_frame(5, static_cast<int>(i), true));
 }
 
@@ -324,7 +323,7 @@ TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
             const bool here_now = present[frame][place] != 0;
             EXPECT_EQ(radius[frame][place] == kAbsentRadius, !here_now) << frame << " " << place;
             for (std::size_t k = 0; k < 3; ++k) {
-                const bool corner = x[frame][3 * place + k] == info.cell_origin[static_cast<int>(k)];
+                const bool corner = x[frame][3 * place + k] == info.cell.origin[static_cast<int>(k)];
                 EXPECT_EQ(corner, !here_now) << frame << " " << place;
                 if (!here_now) {
                     EXPECT_EQ(v[frame][3 * place + k], 0);
@@ -393,7 +392,7 @@ TEST(Trajectory, PlacesWithoutAGrainAreInTheLowestCorner) {
     ASSERT_EQ(nc_get_var_double(file, variable, x.data()), NC_NOERR);
     for (std::size_t k = 0; k < 6; ++k)
         EXPECT_EQ(x[k], made_frame(2, 0).position[k / 3][static_cast<int>(k % 3)]);
-    for (std::size_t k = 6; k < 9; ++k) EXPECT_EQ(x[k], made_info(3).cell_origin[static_cast<int>(k % 3)]);
+    for (std::size_t k = 6; k < 9; ++k) EXPECT_EQ(x[k], made_info(3).cell.origin[static_cast<int>(k % 3)]);
     std::array<int, 3> id{};
     ASSERT_EQ(nc_inq_varid(file, "id", &variable), NC_NOERR);
     ASSERT_EQ(nc_get_var_int(file, variable, id.data()), NC_NOERR);
@@ -645,6 +644,22 @@ TEST(ContactsFile, IsATableWithTheFrameOfEveryRow) {
         }
     }
     nc_close(file);
+}
+
+TEST(ContactsFile, HasTheTorqueOfTheResistanceToRolling) {
+    const TemporaryFolder here;
+    for (const bool meshes : {false, true}) {
+        const SavedContact one{3, -1, 0.5, vector_of(1), vector_of(2), meshes ? 4 : -1, vector_of(3)};
+        ContactsWriter(here / "c.nc", "A test", "1.2.3", {}, meshes, true).write(0, {one});
+        ContactsWriter(here / "c.nc", 1).write(1, {one});
+        const ContactsReader reader(here / "c.nc");
+        for (const std::size_t frame : {0U, 1U}) {
+            const std::vector<SavedContact> read = reader.contacts(frame);
+            ASSERT_EQ(read.size(), 1u);
+            EXPECT_EQ(read[0].triangle, one.triangle);
+            EXPECT_EQ(read[0].rolling, Vec3(one.rolling.cast<float>().cast<double>()));
+        }
+    }
 }
 
 TEST(ContactsFile, HasTheTrianglesOfMeshes) {

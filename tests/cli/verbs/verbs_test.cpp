@@ -3,9 +3,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include <fmt/format.h>
 
 #include "tests/cli/program.hpp"
 #include "tests/support/tells.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -74,6 +80,15 @@ TEST(Verbs, AreNamedAsTheUserCallsTheProgram) {
         EXPECT_THAT(help, HasSubstr("'../a tree/movie' "));
         EXPECT_THAT(help, testing::Not(HasSubstr("grainreel ")));
     }
+}
+
+// With so small a stack the program, or one of its threads, ended without a word.
+TEST(SmallStack, IsTold) {
+    const TemporaryFolder here;
+    const std::string command =
+        fmt::format("ulimit -s 200 && '{}' scenes 2> '{}'", GRAINREEL_BINARY, (here / "said").string());
+    EXPECT_EQ(WEXITSTATUS(std::system(("sh -c \"" + command + "\"").c_str())), 2);
+    EXPECT_THAT(text_of(here / "said"), tells_only({"stack", "200 kB", "ulimit -s"}));
 }
 
 }  // namespace

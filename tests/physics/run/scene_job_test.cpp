@@ -52,7 +52,7 @@ std::string status_of(const std::filesystem::path& folder) {
     return read_run_json(folder / "run.json").status;
 }
 
-TEST(SceneFolderRun, WritesTheFilesOfARunWithoutAFilm) {
+TEST(SceneJob, WritesTheFilesOfARunWithoutAFilm) {
     const TemporaryFolder here;
     SilentListener listener;
     EXPECT_EQ(end_of_run(here / "run", listener).size(), 50u);
@@ -62,7 +62,7 @@ TEST(SceneFolderRun, WritesTheFilesOfARunWithoutAFilm) {
 }
 
 // The run is continued as `resume` does it, but without a film.
-TEST(SceneFolderRun, GoesOnInItsFolder) {
+TEST(SceneJob, GoesOnInItsFolder) {
     const TemporaryFolder here;
     const std::filesystem::path folder = here / "run";
     StopsAt stops(0.02);

@@ -49,6 +49,17 @@ double mass_of(const Departure& one, const Scene& scene) {
            std::pow(one.radius, 3);
 }
 
+TEST(Exits, AreToldWhereGrainsComeInThem) {
+    const auto warnings = [](const std::string& feed) {
+        const Scene scene = scene_of(kBed + kExit + "[[feed]]\nspecies = \"large\"\nrate = 50\n" + feed);
+        return make_plan(scene).warnings;
+    };
+    EXPECT_THAT(warnings("low = [0, 0.012, 0.04]\nhigh = [0.001, 0.015, 0.05]\n"),
+                Contains(tells({"bed.toml:", "100 %", "feed's box", "leave at once"})));
+    EXPECT_THAT(warnings("low = [0, 0.001, 0.04]\nhigh = [0.001, 0.009, 0.05]\n"),
+                Not(Contains(HasSubstr("leave at once"))));
+}
+
 struct Start {
     State packed;  // before anybody leaves
     PackingResult result;

@@ -65,20 +65,24 @@ namespace fs = std::filesystem;
 
 // An index file has an Identity, then this line, then the values that index_bytes() writes. Whoever changes
 // their order changes the number, so that an older file is not misread.
-constexpr std::string_view magic = "grainreel index 1\n";
+constexpr std::string_view magic = "grainreel index 2\n";
 constexpr std::size_t hashed = 65536;        // bytes at each end of the file
 constexpr const char* kIndices = "indices";  // name of their folder in the cache folder
 
 // What identifies the file that an index belongs to.
 struct Identity {
     std::uint64_t inode = 0, size = 0;
-    std::int64_t changed = 0;
+    std::int64_t changed = 0, touched = 0;
     std::uint64_t head_hash = 0, end_hash = 0;
 };
 
 Identity identity_of(const FileBytes& file, const FileState& state) {
     const std::uint64_t head = std::min<std::uint64_t>(state.size, hashed);
-    return {state.inode, state.size, state.changed, hash_before(file, head, hashed),
+    return {state.inode,
+            state.size,
+            state.changed,
+            state.touched,
+            hash_before(file, head, hashed),
             hash_before(file, state.size, hashed)};
 }
 
@@ -87,6 +91,7 @@ void each_of(Way& way, auto& identity) {
     way(identity.inode);
     way(identity.size);
     way(identity.changed);
+    way(identity.touched);
     way(identity.head_hash);
     way(identity.end_hash);
 }
@@ -159,8 +164,8 @@ std::optional<std::string> bytes_of(const fs::path& path) {
 // Whether an index made for the state `then` fits the file as it is now.
 bool serves(const Identity& then, const FileBytes& file, const FileState& now) {
     if (then.inode != now.inode || then.size > now.size) return false;
-    if (then.size == now.size && then.changed != now.changed) return false;
-    const FileState before{then.size, now.device, then.inode, then.changed};
+    if (then.size == now.size && (then.changed != now.changed || then.touched != now.touched)) return false;
+    const FileState before{then.size, now.device, then.inode, then.changed, then.touched};
     const Identity again = identity_of(file, before);
     return again.head_hash == then.head_hash && again.end_hash == then.end_hash;
 }
@@ -181,13 +186,13 @@ std::optional<KeptIndex> index_in(const fs::path& path, const FileBytes& file, c
     return KeptIndex{std::move(*index), then.size == now.size};
 }
 
-// Whether an index may be believed: it is a file, and the user or the owner of the dump has written it. Both
-// may lie in a folder in which everybody may make files.
+// Whether an index may be believed: it is a file that not everybody may write, and the user or the owner of
+// the dump has made it. Both may lie in a folder in which everybody may make files.
 bool is_believed(const fs::path& index, const fs::path& file) {
     struct stat one {
     }, other{};
-    return ::lstat(index.c_str(), &one) == 0 && S_ISREG(one.st_mode) && ::stat(file.c_str(), &other) == 0 &&
-           (one.st_uid == ::geteuid() || one.st_uid == other.st_uid);
+    return ::lstat(index.c_str(), &one) == 0 && S_ISREG(one.st_mode) && (one.st_mode & S_IWOTH) == 0 &&
+           ::stat(file.c_str(), &other) == 0 && (one.st_uid == ::geteuid() || one.st_uid == other.st_uid);
 }
 
 }  // namespace

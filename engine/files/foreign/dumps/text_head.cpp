@@ -156,8 +156,12 @@ class HeadReader {
         if (!counted_)
             refuse(fmt::format("rows without their number: \"ITEM: NUMBER OF {}\" is missing above line {}",
                                excerpt(item), line_.number));
-        for (std::string_view name = words.next_in_line(); !name.empty(); name = words.next_in_line())
+        constexpr std::size_t most_names = 10000;
+        for (std::string_view name = words.next_in_line(); !name.empty(); name = words.next_in_line()) {
+            if (head_.names.size() == most_names)
+                refuse(fmt::format("more than {} columns; is this a dump?", most_names));
             head_.names.emplace_back(name);
+        }
         head_.pairs = item != "ATOMS";
         head_.names_line = line_.number;
         head_.names_ended = line_.ended;

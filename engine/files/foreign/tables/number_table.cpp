@@ -36,6 +36,7 @@ struct RowGroup {
 struct FrameRows {
     RawMoment moment;
     std::vector<RowGroup> runs;
+    std::string first_id;  // of its first row, as it stands there
 };
 
 // The smallest and the largest number of each column of a table with four columns.
@@ -76,7 +77,9 @@ class NumberTable : public RawFile {
     void refuse_measures() const;
     void find_clocks();
     void find_frames();
-    bool take_row(std::map<double, FrameRows>& frames);
+    bool take_row();
+    FrameRows& frame_at(double clock);
+    void drop_last_frame();
     double clock_of(std::size_t column) const;
     void add_rows(std::vector<ColumnFiller>& columns, const RowGroup& run) const;
     void add_row(std::vector<ColumnFiller>& columns) const;
@@ -87,9 +90,11 @@ class NumberTable : public RawFile {
     std::vector<RawMoment> moments_;
     std::vector<std::vector<RowGroup>> runs_;  // the rows of each moment
     std::vector<std::string> news_;
-    std::optional<std::size_t> time_, step_;  // numbers of these columns
-    double time_unit_ = 1;                    // s
-    double last_ = 0;                         // time or step of the last row
+    std::vector<FrameRows> frames_;                // while they are found: in the order in which they begin
+    std::map<double, std::size_t> frame_of_;       // for each time or step: its last frame
+    std::optional<std::size_t> time_, step_, id_;  // numbers of these columns
+    double time_unit_ = 1;                         // s
+    double last_ = 0;                              // time or step of the last row
     Ranges ranges_;
     mutable std::mutex reading_;
     std::filesystem::path file_;
@@ -138,6 +143,9 @@ void NumberTable::find_clocks() {
         }
         if (!step_ && std::find(steps.begin(), steps.end(), bare) != steps.end()) step_ = i;
     }
+    RawTable named;
+    for (const std::string& name : layout_.names) named.columns.push_back({name, {}, {}});
+    id_ = column_for("id", named, {}, file_.string());
 }
 
 double NumberTable::clock_of(std::size_t column) const {
@@ -148,8 +156,30 @@ double NumberTable::clock_of(std::size_t column) const {
     return *value;
 }
 
+// The frame that the present row belongs to. Rows of one time may be apart in the file. If the first grain of
+// the time comes again, a run has gone on from an earlier moment and written this one anew.
+FrameRows& NumberTable::frame_at(double clock) {
+    const auto known = frame_of_.find(clock);
+    if (known != frame_of_.end()) {
+        FrameRows& frame = frames_[known->second];
+        const bool again =
+            frame.runs.back().last_line + 1 < line_.number && id_ && cells_[*id_].text == frame.first_id;
+        if (!again) return frame;
+    }
+    frame_of_[clock] = frames_.size();
+    FrameRows& frame = frames_.emplace_back();
+    if (id_) frame.first_id = cells_[*id_].text;
+    return frame;
+}
+
+void NumberTable::drop_last_frame() {
+    const auto last = frame_of_.find(last_);
+    if (last == frame_of_.end()) return;
+    frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(last->second));
+}
+
 // Adds the present row to the frame of its time. Returns false where the file ends within the row.
-bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
+bool NumberTable::take_row() {
     split_cells(line_.text, layout_.form, cells_);
     const std::optional<std::size_t> clock = time_ ? time_ : step_;
     if (cells_.size() < layout_.names.size() && !line_.ended) {
@@ -160,7 +190,7 @@ bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
         fault(fmt::format("this row has {} in place of {}", counted(cells_.size(), "column"),
                           layout_.names.size()));
     last_ = clock ? clock_of(*clock) : 0.0;
-    FrameRows& frame = frames[last_];
+    FrameRows& frame = frame_at(last_);
     RawMoment& moment = frame.moment;
     if (moment.grains == 0) {
         if (time_) moment.time = last_ * time_unit_;
@@ -179,32 +209,33 @@ bool NumberTable::take_row(std::map<double, FrameRows>& frames) {
 }
 
 void NumberTable::find_frames() {
-    std::map<double, FrameRows> frames;
     while (line_.number < layout_.head_lines && lines_.next(line_)) continue;
     bool whole = true, shut = line_.ended;
     while (whole && lines_.next_with_words(line_)) {
         shut = line_.ended || (layout_.form.closed && trimmed(line_.text).ends_with(layout_.form.separator));
         if (is_remark(line_.text)) continue;
-        whole = take_row(frames);
+        whole = take_row();
     }
     const std::string name = file_.string();
-    const bool many = frames.size() > 1;
+    const bool many = frames_.size() > 1;
     if (!whole && !many)
         throw UserError(fmt::format("{}:{}: the file ends within a row; was it copied or written to the end?",
                                     name, line_.number));
     if (many && (!whole || !shut)) {
         news_.push_back(
             fmt::format("{}: its last frame is cut off in line {} and is left out", name, line_.number));
-        frames.erase(last_);
+        drop_last_frame();
     } else if (!shut) {
         news_.push_back(fmt::format("{}: its last line has no end; its last number may be cut", name));
     }
     if (lines_.cut_off()) news_.push_back(fmt::format("{}: its packed bytes end too early", name));
-    if (frames.empty()) frames[0] = {};
-    for (auto& [key, frame] : frames) {
+    if (frames_.empty()) frames_.emplace_back();
+    for (FrameRows& frame : frames_) {
         moments_.push_back(frame.moment);
         runs_.push_back(std::move(frame.runs));
     }
+    frames_.clear();
+    frame_of_.clear();
     moments_.back().open = true;  // no table says how many rows a moment has
 }
 

@@ -14,6 +14,8 @@
 namespace grainreel {
 namespace {
 
+constexpr std::uint64_t some_numbers = std::uint64_t{4} << 20;  // for so many, memory is asked for at once
+
 constexpr bool is_blank(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
@@ -24,50 +26,73 @@ constexpr bool is_letter(char c) {
 }  // namespace
 
 void LegacyText::refuse(const std::string& what) const {
-    if (binary_) refuse_vtk_byte(file_, last_, what);
-    refuse_vtk_line(file_, line_of_byte(bytes_, last_), what);
+    if (binary_) refuse_vtk_byte(content_.file(), last_, what);
+    refuse_vtk_line(content_.file(), content_.line_of(last_), what);
 }
 
 void LegacyText::skip_blanks() {
-    while (at_ < bytes_.size() && is_blank(bytes_[at_])) ++at_;
+    for (std::string_view text = rest(); !text.empty(); text = rest()) {
+        const auto other = std::find_if_not(text.begin(), text.end(), is_blank);
+        at_ += static_cast<std::uint64_t>(other - text.begin());
+        if (other != text.end()) return;
+    }
 }
 
-std::string_view LegacyText::line() {
-    const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
-    std::string_view text = bytes_.substr(at_, end - at_);
+void LegacyText::skip_line() {
+    for (std::string_view text = rest(); !text.empty(); text = rest()) {
+        const std::size_t end = text.find('\n');
+        at_ += end == std::string_view::npos ? text.size() : end + 1;
+        if (end != std::string_view::npos) return;
+    }
+}
+
+std::string LegacyText::line() {
     last_ = at_;
-    at_ = std::min(end + 1, bytes_.size());
+    std::string_view text = rest();
+    const std::size_t end = text.find('\n');
+    if (std::min(end, text.size()) >= Content::kPiece)
+        refuse("this line is longer than 1 MB; is this a file of VTK?");
+    text = text.substr(0, end);
+    at_ += text.size() + (end == std::string_view::npos ? 0 : 1);
     if (text.ends_with('\r')) text.remove_suffix(1);
-    return text;
+    return std::string(text);
 }
 
-std::string_view LegacyText::word() {
+std::string LegacyText::word() {
     skip_blanks();
     last_ = at_;
-    while (at_ < bytes_.size() && !is_blank(bytes_[at_])) ++at_;
-    return bytes_.substr(last_, at_ - last_);
+    std::string_view text = rest();
+    const auto end = std::find_if(text.begin(), text.end(), is_blank);
+    text = text.substr(0, static_cast<std::size_t>(end - text.begin()));
+    if (text.size() >= Content::kPiece) refuse("this word is longer than 1 MB; is this a file of VTK?");
+    at_ += text.size();
+    return std::string(text);
 }
 
-std::string_view LegacyText::peek() {
-    const std::size_t before = at_;
-    const std::string_view next = word();
+std::string LegacyText::peek() {
+    const std::uint64_t before = at_;
+    std::string next = word();
     at_ = before;
     return next;
 }
 
-std::string_view LegacyText::word_in_line() {
-    while (at_ < bytes_.size() && is_blank(bytes_[at_]) && bytes_[at_] != '\n') ++at_;
-    if (at_ == bytes_.size() || bytes_[at_] == '\n') return {};
-    return word();
+std::string LegacyText::word_in_line() {
+    for (std::string_view text = rest(); !text.empty(); text = rest()) {
+        const auto other =
+            std::find_if(text.begin(), text.end(), [](char c) { return !is_blank(c) || c == '\n'; });
+        at_ += static_cast<std::uint64_t>(other - text.begin());
+        if (other != text.end()) return *other == '\n' ? std::string() : word();
+    }
+    return {};
 }
 
 bool LegacyText::at_end() {
     skip_blanks();
-    return at_ == bytes_.size();
+    return rest().empty();
 }
 
 std::uint64_t LegacyText::count(const char* what) {
-    const std::string_view text = word();
+    const std::string text = word();
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value > (std::uint64_t{1} << 48))
@@ -76,65 +101,98 @@ std::uint64_t LegacyText::count(const char* what) {
 }
 
 VtkType LegacyText::type(const char* what) {
-    const std::string_view text = word();
+    const std::string text = word();
     const auto found = vtk_legacy_type(text);
     if (!found) refuse(fmt::format("numbers of type \"{}\" for {}, which are not read", excerpt(text), what));
     return *found;
 }
 
-void LegacyText::check_room(std::uint64_t count) const {
-    // Each number takes a digit and something between it and the next.
-    if (count > (bytes_.size() - at_) / 2 + 1)
-        refuse(
-            fmt::format("{} numbers, for which the rest of the file is too short; {}", count, kWriteAgain));
+std::uint64_t LegacyText::stored(VtkType type, std::uint64_t count) {
+    skip_line();
+    const std::uint64_t size = bytes_of(type, count), left = content_.size() - at_;
+    last_ = at_;
+    if (size > left)
+        refuse(fmt::format("an array of {} bytes begins here, and {} are left; {}", size, left, kWriteAgain));
+    at_ += size;
+    return last_;
 }
 
-std::string_view LegacyText::stored(VtkType type, std::uint64_t count) {
-    line();
-    const std::uint64_t size = bytes_of(type, count);
+template <class T>
+void LegacyText::read_bytes(VtkType type, std::uint64_t count, std::vector<T>& values) {
+    std::uint64_t place = stored(type, count);
+    values.reserve(std::min(count, some_numbers));
+    for (std::uint64_t left = count; left > 0;) {
+        constexpr std::uint64_t at_once = Content::kPiece / 8;  // numbers; a multiple of 8, for bits
+        const std::uint64_t numbers = std::min(left, at_once), bytes = bytes_of(type, numbers);
+        widen(content_.from(place, static_cast<std::size_t>(bytes)), type, true, numbers, values);
+        place += bytes;
+        left -= numbers;
+    }
+}
+
+// The words of a piece of text that are whole. The last one may go on in the next piece, unless nothing more
+// comes.
+std::string_view LegacyText::whole_words() const {
+    const bool last = content_.ends_at(at_ + rest().size());
+    std::string_view text = rest();
+    if (last) return text;
+    const auto end = std::find_if(text.rbegin(), text.rend(), is_blank);
+    text = text.substr(0, static_cast<std::size_t>(text.rend() - end));
+    if (text.empty())
+        refuse_vtk_line(content_.file(), content_.line_of(at_),
+                        "a word here is longer than 1 MB; is this a file of VTK?");
+    return text;
+}
+
+void LegacyText::refuse_end(std::uint64_t index, std::uint64_t count) {
     last_ = at_;
-    if (size > bytes_.size() - at_)
-        refuse(fmt::format("an array of {} bytes begins here, and {} are left; {}", size, bytes_.size() - at_,
-                           kWriteAgain));
-    at_ += size;
-    return bytes_.substr(last_, size);
+    refuse(fmt::format("the file ends after {} of {} numbers; {}", index, count, kWriteAgain));
+}
+
+template <class T>
+void LegacyText::read_words(std::uint64_t count, bool finite, std::vector<T>& values) {
+    values.reserve(std::min(count, some_numbers));
+    while (values.size() < count) {
+        const std::string_view text = whole_words();
+        if (text.empty()) refuse_end(values.size(), count);
+        VtkWords words(text.data(), text.data() + text.size());
+        const std::uint64_t begin = at_;
+        const auto mark = [&](const char* byte) {
+            last_ = begin + static_cast<std::uint64_t>(byte - text.data());
+        };
+        while (values.size() < count && !words.at_end()) {
+            const char* const from = words.at();
+            double value = 0;
+            if (!words.number(value)) {
+                mark(from);
+                refuse(fmt::format("\"{}\" after {} of {} numbers; {}", excerpt(words.word()), values.size(),
+                                   count, kWriteAgain));
+            }
+            if (finite && !std::isfinite(value)) {
+                mark(from);
+                refuse("a place that is no number; remove the point or write its place");
+            }
+            if constexpr (std::is_integral_v<T>)
+                values.push_back(std::abs(value) < 9e15 ? static_cast<T>(value) : T(-1));
+            else
+                values.push_back(value);
+        }
+        at_ = begin + static_cast<std::uint64_t>(words.at() - text.data());
+    }
 }
 
 template <class T>
 std::vector<T> LegacyText::numbers(VtkType type, std::uint64_t count, bool finite) {
     std::vector<T> values;
-    if (binary_) {
-        const std::string_view bytes = stored(type, count);
-        widen(bytes, type, true, count, values);
-        for (std::size_t i = 0; finite && i < values.size(); ++i)
-            if (!std::isfinite(static_cast<double>(values[i])))
-                refuse_vtk_byte(file_, last_ + bytes_of(type, i),
-                                "a place that is no number; remove the point or write its place");
+    if (!binary_) {
+        read_words(count, finite, values);
         return values;
     }
-    check_room(count);
-    values.reserve(count);
-    VtkWords words(bytes_.data() + at_, bytes_.data() + bytes_.size());
-    for (std::uint64_t i = 0; i < count; ++i) {
-        double value = 0;
-        const bool end = words.at_end();
-        const bool good = words.number(value);
-        if (!good || (finite && !std::isfinite(value))) {
-            if (good) words = VtkWords(bytes_.data() + at_, bytes_.data() + bytes_.size());
-            for (std::uint64_t k = 0; good && k < i; ++k) words.word();
-            words.at_end();
-            last_ = static_cast<std::size_t>(words.at() - bytes_.data());
-            if (end) refuse(fmt::format("the file ends after {} of {} numbers; {}", i, count, kWriteAgain));
-            if (good) refuse("a place that is no number; remove the point or write its place");
-            refuse(fmt::format("\"{}\" after {} of {} numbers; {}", excerpt(words.word()), i, count,
-                               kWriteAgain));
-        }
-        if constexpr (std::is_integral_v<T>)
-            values.push_back(std::abs(value) < 9e15 ? static_cast<T>(value) : T(-1));
-        else
-            values.push_back(value);
-    }
-    at_ = static_cast<std::size_t>(words.at() - bytes_.data());
+    read_bytes(type, count, values);
+    for (std::size_t i = 0; finite && i < values.size(); ++i)
+        if (!std::isfinite(static_cast<double>(values[i])))
+            refuse_vtk_byte(content_.file(), last_ + bytes_of(type, i),
+                            "a place that is no number; remove the point or write its place");
     return values;
 }
 
@@ -146,33 +204,40 @@ void LegacyText::skip(VtkType type, std::uint64_t count) {
         stored(type, count);
         return;
     }
-    check_room(count);
-    for (std::uint64_t i = 0; i < count; ++i) {
-        const std::string_view next = word();
-        if (next.empty())
-            refuse(fmt::format("the file ends after {} of {} numbers; {}", i, count, kWriteAgain));
-        // "nan" and "inf" are numbers too.
-        if (is_letter(next[0]) && std::string_view("nNiI").find(next[0]) == std::string_view::npos)
+    for (std::uint64_t i = 0; i < count;) {
+        const std::string_view text = whole_words();
+        if (text.empty()) refuse_end(i, count);
+        VtkWords words(text.data(), text.data() + text.size());
+        const std::uint64_t begin = at_;
+        for (; i < count && !words.at_end(); ++i) {
+            const std::string_view next = words.word();
+            // "nan" and "inf" are numbers too.
+            if (!is_letter(next[0]) || std::string_view("nNiI").find(next[0]) != std::string_view::npos)
+                continue;
+            last_ = begin + static_cast<std::uint64_t>(next.data() - text.data());
             refuse(fmt::format("\"{}\" after {} of {} numbers; {}", excerpt(next), i, count, kWriteAgain));
+        }
+        at_ = begin + static_cast<std::uint64_t>(words.at() - text.data());
     }
 }
 
 void LegacyText::skip_words(std::uint64_t count) {
-    line();
+    skip_line();
     for (std::uint64_t i = 0; i < count; ++i) {
-        if (at_ == bytes_.size())
+        const std::string_view text = content_.from(at_, 9);
+        if (text.empty())
             refuse(fmt::format("the file ends after {} of {} words; {}", i, count, kWriteAgain));
         if (!binary_) {
-            line();
+            skip_line();
             continue;
         }
         // The two highest bits tell how many bytes the length has: 8, 4, 2 or 1.
-        const std::size_t bytes = std::size_t{8} >> (static_cast<unsigned char>(bytes_[at_]) >> 6);
+        const std::size_t bytes = std::size_t{8} >> (static_cast<unsigned char>(text[0]) >> 6);
         std::uint64_t length = 0;
-        for (std::size_t k = 0; k < bytes && at_ + k < bytes_.size(); ++k)
-            length = (length << 8) | (static_cast<unsigned char>(bytes_[at_ + k]) & (k == 0 ? 63u : 255u));
+        for (std::size_t k = 0; k < bytes && k < text.size(); ++k)
+            length = (length << 8) | (static_cast<unsigned char>(text[k]) & (k == 0 ? 63u : 255u));
         last_ = at_;
-        if (length + bytes > bytes_.size() - at_)
+        if (length + bytes > content_.size() - at_)
             refuse(
                 fmt::format("a text of {} bytes goes beyond the end of the file; {}", length, kWriteAgain));
         at_ += bytes + length;
@@ -180,12 +245,12 @@ void LegacyText::skip_words(std::uint64_t count) {
 }
 
 void LegacyText::skip_metadata() {
-    line();
-    while (at_ < bytes_.size()) {
-        const std::size_t before = at_;
-        const std::string_view text = line();
+    skip_line();
+    while (!rest().empty()) {
+        const std::uint64_t before = at_;
+        const std::string text = line();
         if (std::all_of(text.begin(), text.end(), is_blank)) return;
-        const std::string_view first = text.substr(0, text.find_first_of(" \t"));
+        const std::string_view first = std::string_view(text).substr(0, text.find_first_of(" \t"));
         if (is_legacy_keyword(first)) {
             at_ = before;
             return;

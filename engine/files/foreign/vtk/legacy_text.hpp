@@ -3,32 +3,32 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/files/foreign/content.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
 namespace grainreel {
 
 class LegacyText {
   public:
-    // File name and bytes must outlive this object.
-    LegacyText(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+    // The content must outlive this object.
+    explicit LegacyText(const Content& content) : content_(content) {}
 
     // Whether arrays from here on are bytes.
     void set_binary(bool binary) { binary_ = binary; }
     bool binary() const { return binary_; }
 
-    // The rest of the line, without its end.
-    std::string_view line();
-    // The next word, in this line or a later one; empty at the end of the file.
-    std::string_view word();
+    // The rest of the line, without its end. Throws UserError for a line of more than 1 MB.
+    std::string line();
+    // The next word, in this line or a later one; empty at the end of the file. Throws as line() does.
+    std::string word();
     // The next word, which word() will give again.
-    std::string_view peek();
+    std::string peek();
     // The next word of this line; empty at its end.
-    std::string_view word_in_line();
+    std::string word_in_line();
     bool at_end();
 
     // The next word as a count. `what` names it in the message.
@@ -50,15 +50,26 @@ class LegacyText {
     [[noreturn]] void refuse(const std::string& what) const;
 
   private:
+    // The content from the next byte on; empty at its end.
+    std::string_view rest() const { return content_.from(at_); }
     void skip_blanks();
-    // The bytes of an array in the file.
-    std::string_view stored(VtkType type, std::uint64_t count);
-    void check_room(std::uint64_t count) const;
+    // Goes behind the next end of a line.
+    void skip_line();
+    // Goes behind the bytes of an array, and returns where they begin.
+    std::uint64_t stored(VtkType type, std::uint64_t count);
+    template <class T>
+    void read_bytes(VtkType type, std::uint64_t count, std::vector<T>& values);
+    template <class T>
+    void read_words(std::uint64_t count, bool finite, std::vector<T>& values);
 
-    const std::filesystem::path& file_;
-    std::string_view bytes_;
+    // The next words that are whole, as one piece; empty at the end.
+    std::string_view whole_words() const;
+    // Throws UserError: the file ends after that many of `count` numbers.
+    [[noreturn]] void refuse_end(std::uint64_t index, std::uint64_t count);
+
+    const Content& content_;
     bool binary_ = false;
-    std::size_t at_ = 0, last_ = 0;  // the next byte, and the first byte of the last word
+    std::uint64_t at_ = 0, last_ = 0;  // the next byte, and the first byte of the last word
 };
 
 extern template std::vector<double> LegacyText::numbers<double>(VtkType, std::uint64_t, bool);

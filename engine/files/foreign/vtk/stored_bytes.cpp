@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
+#include <new>
 #include <vector>
 
 #include "engine/base/text.hpp"
@@ -21,9 +23,10 @@ namespace {
 // most 1032 in zlib and 255 in LZ4.
 constexpr std::uint64_t most_growth = 1100, most_of_nothing = 64;
 
-// What letter_values has for characters other than the letters of base64; next_letter() returns no_more at
-// the end.
-constexpr int blank = -2, padding = -3, no_letter = -1, no_more = -4;
+constexpr std::uint64_t most_blocks = 2000000;
+
+// What letter_values has for characters other than the letters of base64.
+constexpr int blank = -2, padding = -3, no_letter = -1;
 
 constexpr std::array<signed char, 256> letters() {
     std::array<signed char, 256> values{};
@@ -59,23 +62,60 @@ void check_length(std::uint64_t length, std::optional<std::uint64_t> wanted, con
                    fmt::format("has {} bytes, where its numbers take {}; {}", length, *wanted, kWriteAgain));
 }
 
-void unpack(const std::string& packed, const VtkCoding& coding, char* to, std::size_t size, std::size_t block,
-            const VtkPlace& place) {
-    bool good = false;
-    if (coding.compressor == VtkCompressor::lz4) {
-        constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
-        good = packed.size() <= most && size <= most &&
-               LZ4_decompress_safe(packed.data(), to, static_cast<int>(packed.size()),
-                                   static_cast<int>(size)) == static_cast<int>(size);
-    } else {
-        uLongf length = size;
-        good = ::uncompress(reinterpret_cast<Bytef*>(to), &length,
-                            reinterpret_cast<const Bytef*>(packed.data()), packed.size()) == Z_OK &&
-               length == size;
+[[noreturn]] void refuse_block(std::size_t block, const VtkPlace& place) {
+    refuse_vtk(place, fmt::format("block {} of its compressed data is damaged; {}", block + 1, kWriteAgain));
+}
+
+using TakeBytes = std::function<void(std::string_view)>;
+
+// Unpacks a block of LZ4, which must have so many bytes then. Memory is asked for as far as there are bytes:
+// a claim of many is tried with a part of them first.
+bool unpack_lz4(const std::string& packed, std::uint64_t size, const TakeBytes& take) {
+    constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
+    constexpr std::uint64_t first = std::uint64_t{4} << 20;
+    if (packed.size() > most || size > most) return false;
+    for (std::uint64_t room = std::min(size, first);; room = std::min(size, 4 * room)) {
+        std::string bytes(room, '\0');
+        const auto got =
+            room == size
+                ? LZ4_decompress_safe(packed.data(), bytes.data(), static_cast<int>(packed.size()),
+                                      static_cast<int>(size))
+                : LZ4_decompress_safe_partial(packed.data(), bytes.data(), static_cast<int>(packed.size()),
+                                              static_cast<int>(room), static_cast<int>(room));
+        if (got != static_cast<int>(room)) return false;
+        if (room < size) continue;
+        take(bytes);
+        return true;
     }
-    if (!good)
-        refuse_vtk(place,
-                   fmt::format("block {} of its compressed data is damaged; {}", block + 1, kWriteAgain));
+}
+
+// Unpacks a block of zlib, which must have so many bytes then.
+bool unpack_zlib(const std::string& packed, std::uint64_t size, const TakeBytes& take) {
+    if (packed.size() > std::numeric_limits<uInt>::max()) return false;
+    z_stream stream{};
+    if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
+    const std::unique_ptr<z_stream, decltype(&inflateEnd)> ended(&stream, &inflateEnd);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+    stream.avail_in = static_cast<uInt>(packed.size());
+    std::string piece(std::min<std::uint64_t>(size + 1, Content::kPiece), '\0');
+    int result = Z_OK;
+    std::uint64_t unpacked = 0;
+    while (result == Z_OK && unpacked <= size) {
+        stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+        stream.avail_out = static_cast<uInt>(piece.size());
+        result = inflate(&stream, Z_NO_FLUSH);
+        const std::size_t got = piece.size() - stream.avail_out;
+        unpacked += got;
+        if (unpacked <= size) take(std::string_view(piece).substr(0, got));
+    }
+    return result == Z_STREAM_END && unpacked == size;
+}
+
+void unpack(const std::string& packed, const VtkCoding& coding, std::uint64_t size, std::size_t block,
+            const VtkPlace& place, const TakeBytes& take) {
+    const bool good = coding.compressor == VtkCompressor::lz4 ? unpack_lz4(packed, size, take)
+                                                              : unpack_zlib(packed, size, take);
+    if (!good) refuse_block(block, place);
 }
 
 std::uint64_t plain_length(StoredStream& stream, const VtkCoding& coding, std::optional<std::uint64_t> wanted,
@@ -99,6 +139,8 @@ Blocks blocks_of(StoredStream& stream, const VtkCoding& coding, const VtkPlace& 
     Blocks blocks;
     const std::uint64_t count = length_at(stream.take(coding.header_bytes), 0, coding);
     if (count == 0) return blocks;
+    if (count > most_blocks)
+        refuse_vtk(place, fmt::format("says {} compressed blocks; at most {} are read", count, most_blocks));
     if (count > stream.at_most() / coding.header_bytes)
         refuse_vtk(place, fmt::format("says {} compressed blocks, which the file cannot hold; {}", count,
                                       kWriteAgain));
@@ -124,17 +166,12 @@ Blocks blocks_of(StoredStream& stream, const VtkCoding& coding, const VtkPlace& 
     return blocks;
 }
 
-std::string packed_array(StoredStream& stream, const VtkCoding& coding, std::optional<std::uint64_t> wanted,
-                         const VtkPlace& place) {
+void packed_array(StoredStream& stream, const VtkCoding& coding, std::optional<std::uint64_t> wanted,
+                  const VtkPlace& place, const TakeBytes& take) {
     const Blocks blocks = blocks_of(stream, coding, place);
     check_length(blocks.length(), wanted, place);
-    std::string bytes(blocks.length(), '\0');
-    std::size_t at = 0;
-    for (std::size_t i = 0; i < blocks.packed.size(); ++i) {
-        unpack(stream.take(blocks.packed[i]), coding, bytes.data() + at, blocks.size_of(i), i, place);
-        at += blocks.size_of(i);
-    }
-    return bytes;
+    for (std::size_t i = 0; i < blocks.packed.size(); ++i)
+        unpack(stream.take(blocks.packed[i]), coding, blocks.size_of(i), i, place, take);
 }
 
 void check_compressor(const VtkCoding& coding, const VtkPlace& place) {
@@ -148,34 +185,38 @@ void check_compressor(const VtkCoding& coding, const VtkPlace& place) {
 
 }  // namespace
 
-StoredStream::StoredStream(std::string_view text, bool base64, const VtkPlace& place)
-    : left_(text), base64_(base64), place_(place) {}
+StoredStream::StoredStream(const Content& content, std::uint64_t begin, std::uint64_t end, bool base64,
+                           const VtkPlace& place)
+    : content_(content), next_(begin), end_(end), base64_(base64), place_(place) {}
 
 std::uint64_t StoredStream::at_most() const {
-    return spare_.size() + (base64_ ? left_.size() / 4 * 3 + 3 : left_.size());
+    const std::uint64_t left = end_ - next_;
+    return spare_.size() + (base64_ ? left / 4 * 3 + 3 : left);
 }
 
-int StoredStream::next_letter() {
-    while (!left_.empty()) {
-        const int value = letter_values[static_cast<unsigned char>(left_[0])];
-        if (value == no_letter)
-            refuse_vtk(place_,
-                       fmt::format("\"{}\" within base64; {}", excerpt(left_.substr(0, 1)), kWriteAgain));
-        left_.remove_prefix(1);
-        if (value != blank) return value;
-    }
-    return no_more;
+std::string_view StoredStream::left() const {
+    return next_ < end_ ? content_.from(next_).substr(0, static_cast<std::size_t>(end_ - next_))
+                        : std::string_view();
 }
 
 void StoredStream::decode(std::string& to, std::size_t size) {
+    std::string_view text = left();
+    std::array<int, 4> letter;
+    std::size_t letters = 0;
     while (to.size() < size) {
-        std::array<int, 4> letter;
-        for (std::size_t i = 0; i < 4; ++i) {
-            letter[i] = next_letter();
-            if (letter[i] == no_more)
-                refuse_vtk(place_,
-                           fmt::format("ends after {} of {} bytes; {}", to.size(), size, kWriteAgain));
-        }
+        if (text.empty()) text = left();
+        if (text.empty())
+            refuse_vtk(place_, fmt::format("ends after {} of {} bytes; {}", to.size(), size, kWriteAgain));
+        const int value = letter_values[static_cast<unsigned char>(text[0])];
+        if (value == no_letter)
+            refuse_vtk(place_,
+                       fmt::format("\"{}\" within base64; {}", excerpt(text.substr(0, 1)), kWriteAgain));
+        text.remove_prefix(1);
+        ++next_;
+        if (value == blank) continue;
+        letter[letters++] = value;
+        if (letters < 4) continue;
+        letters = 0;
         const int bytes = letter[3] != padding ? 3 : letter[2] != padding ? 2 : 1;
         if (letter[0] < 0 || letter[1] < 0 || (bytes == 3 && letter[2] < 0))
             refuse_vtk(place_, fmt::format("\"=\" within base64; {}", kWriteAgain));
@@ -191,8 +232,9 @@ std::string StoredStream::take(std::uint64_t size) {
                                        at_most(), kWriteAgain));
     std::string bytes;
     if (!base64_) {
-        bytes = left_.substr(0, size);
-        left_.remove_prefix(size);
+        bytes.reserve(size);
+        content_.each_piece(next_, next_ + size, [&](std::string_view piece) { bytes += piece; });
+        next_ += size;
         return bytes;
     }
     bytes = std::move(spare_);
@@ -203,18 +245,24 @@ std::string StoredStream::take(std::uint64_t size) {
     return bytes;
 }
 
-std::string stored_array(std::string_view text, bool base64, const VtkCoding& coding,
-                         std::optional<std::uint64_t> wanted, const VtkPlace& place) {
+void stored_array(const Content& content, const StoredText& text, const VtkCoding& coding,
+                  std::optional<std::uint64_t> wanted, const VtkPlace& place, const TakeBytes& take) {
     check_compressor(coding, place);
-    StoredStream stream(text, base64, place);
-    if (coding.compressor != VtkCompressor::none) return packed_array(stream, coding, wanted, place);
-    return stream.take(plain_length(stream, coding, wanted, place));
+    StoredStream stream(content, text.begin, text.end, text.base64, place);
+    if (coding.compressor != VtkCompressor::none) return packed_array(stream, coding, wanted, place, take);
+    std::uint64_t left = plain_length(stream, coding, wanted, place);
+    if (left > stream.at_most()) stream.take(left);  // refuses it
+    while (left > 0) {
+        const std::uint64_t piece = std::min<std::uint64_t>(left, Content::kPiece);
+        take(stream.take(piece));
+        left -= piece;
+    }
 }
 
-void check_stored_array(std::string_view text, bool base64, const VtkCoding& coding,
+void check_stored_array(const Content& content, const StoredText& text, const VtkCoding& coding,
                         std::optional<std::uint64_t> wanted, const VtkPlace& place) {
     check_compressor(coding, place);
-    StoredStream stream(text, base64, place);
+    StoredStream stream(content, text.begin, text.end, text.base64, place);
     if (coding.compressor != VtkCompressor::none) {
         check_length(blocks_of(stream, coding, place).length(), wanted, place);
         return;

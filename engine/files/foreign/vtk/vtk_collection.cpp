@@ -152,9 +152,9 @@ void find_entries(const fs::path& file, const XmlElement& element, std::vector<E
     }
 }
 
-CollectionList list_of_pvd(const fs::path& file, const std::string& bytes) {
+CollectionList list_of_pvd(const fs::path& file) {
     // While the list is being written it may end anywhere.
-    const XmlTree tree = xml_tree(file, bytes, true);
+    const XmlTree tree = xml_tree(Content(file), true);
     CollectionList list;
     list.format = "ParaView collection (.pvd)";
     std::vector<Entry> entries;
@@ -169,6 +169,8 @@ CollectionList list_of_pvd(const fs::path& file, const std::string& bytes) {
     }
     return list;
 }
+
+constexpr std::uint64_t largest_list = std::uint64_t{8} << 20;  // bytes of a list in JSON
 
 CollectionList list_of_series(const fs::path& file, const std::string& bytes) {
     nlohmann::json series;
@@ -208,10 +210,10 @@ bool is_series(std::string_view bytes) {
 // Reads a list. Its moments are in the order in which their times first appear. Throws UserError with the
 // line.
 CollectionList collection_list(const fs::path& file) {
-    const std::string bytes = all_bytes(file);
-    const std::string type = vtk_file_type(bytes);
+    const std::string type = vtk_file_type(unpacked_head(file).bytes);
     if (is_block_type(type)) return {"VTK blocks (.vtm)", {}, {{{}, {}, {{file, ""}}}}};
-    CollectionList list = type.empty() ? list_of_series(file, bytes) : list_of_pvd(file, bytes);
+    CollectionList list =
+        type.empty() ? list_of_series(file, all_bytes(file, largest_list)) : list_of_pvd(file);
     if (list.moments.empty()) refuse_vtk_file(file, "this collection names no files");
     return list;
 }

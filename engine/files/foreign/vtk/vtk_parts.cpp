@@ -27,20 +27,21 @@ constexpr int most_depth = 4;  // most levels of lists within lists
 constexpr std::string_view domain_name = "Domain";
 
 // The box that LIGGGHTS writes as a rectilinear grid of one cell.
-std::optional<WorldCell> box_of_grid(const fs::path& file, const std::string& bytes, const XmlTree& tree) {
+std::optional<WorldCell> box_of_grid(const Content& content, const XmlTree& tree) {
     const XmlElement* grid = tree.root.child("RectilinearGrid");
     const XmlElement* piece = grid == nullptr ? nullptr : grid->child("Piece");
     const XmlElement* axes = piece == nullptr ? nullptr : piece->child("Coordinates");
     if (axes == nullptr || axes->children.size() != 3) return std::nullopt;
-    const XmlArrays arrays(file, bytes, tree);
+    const XmlArrays arrays(content, tree);
     WorldCell box;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::vector<double> values = arrays.numbers(axes->children[k], std::nullopt, true);
+    std::size_t k = 0;
+    for (const XmlElement& child : axes->children) {
+        const std::vector<double> values = arrays.numbers(child, std::nullopt, true);
         if (values.empty()) return std::nullopt;
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         const auto axis = static_cast<Eigen::Index>(k);
         box.origin[axis] = *low;
-        box.edges[k][axis] = *high - *low;
+        box.edges[k++][axis] = *high - *low;
     }
     return box;
 }
@@ -71,8 +72,8 @@ void add_domain(const fs::path& file, const std::string& type, VtkParts& parts) 
     std::optional<WorldCell> box;
     if (type == "UnstructuredGrid") box = box_of_cell(file);
     if (type == "RectilinearGrid") {
-        const std::string bytes = all_bytes(file);
-        box = box_of_grid(file, bytes, xml_tree(file, bytes));
+        const Content content(file);
+        box = box_of_grid(content, xml_tree(content));
     }
     if (!box) return;
     parts.frame.box = box;
@@ -110,7 +111,7 @@ void add_surface(const fs::path& file, const std::string& name, VtkPart part, Vt
 void add_blocks(const fs::path& file, VtkPart part, VtkParts& parts, int depth) {
     if (depth >= most_depth)
         refuse_vtk_file(file, "lists of files within lists without an end; name the files themselves");
-    for (const VtkPartFile& block : files_of_blocks(file, xml_tree(file, all_bytes(file)))) {
+    for (const VtkPartFile& block : files_of_blocks(file, xml_tree(Content(file)))) {
         if (is_plain(block.file))
             add_part(block, part, parts, depth + 1);
         else
@@ -239,10 +240,19 @@ std::vector<RawWall> split(TriangleMesh&& mesh, const std::vector<Solid>& solids
     return walls;
 }
 
+// The bytes of a surface. A packed one may unpack to as much as such files do.
+std::string mesh_content(const fs::path& file) {
+    if (packing_of(file) == Packing::none) return all_bytes(file, largest_mesh_file);
+    constexpr std::uint64_t some = std::uint64_t{16} << 20, most_growth = 16;
+    std::error_code ignored;
+    return all_bytes(
+        file, std::min<std::uint64_t>(largest_mesh_file, some + most_growth * fs::file_size(file, ignored)));
+}
+
 class WallSurface : public RawFile {
   public:
     explicit WallSurface(fs::path file) : file_(std::move(file)) {
-        const std::string bytes = all_bytes(file_, largest_mesh_file);
+        const std::string bytes = mesh_content(file_);
         const MeshFormat format = format_of(file_, bytes);
         if (read_mesh(format, file_, bytes).empty())
             refuse_vtk_file(file_, fmt::format("this {} has no triangles", name_of(format)));
@@ -327,7 +337,7 @@ bool takes_wall_surface(const FileStart& head) {
 }
 
 std::vector<RawWall> read_wall_surface(const fs::path& file) {
-    const std::string bytes = all_bytes(file, largest_mesh_file);
+    const std::string bytes = mesh_content(file);
     const MeshFormat format = format_of(file, bytes);
     TriangleMesh mesh = read_mesh(format, file, bytes);
     const bool may_have_several = format == MeshFormat::ascii_stl;

@@ -61,7 +61,7 @@ std::vector<std::string> words_of(std::string_view text) {
 std::vector<std::string> species_of(const XmlArrays& arrays, const XmlElement& array) {
     const std::string_view format = array.attribute("format");
     if (!format.empty() && format != "ascii") return {};
-    std::vector<std::string> names = words_of(arrays.text_of_array(array));
+    std::vector<std::string> names = words_of(arrays.short_text(array));
     const std::set<std::string> different(names.begin(), names.end());
     const bool fine = std::all_of(names.begin(), names.end(), [](const std::string& name) {
         return !name.empty() && complaint_of_utf8(name).empty();
@@ -108,8 +108,7 @@ fs::path file_of_piece(const fs::path& file, const XmlElement& piece) {
 
 void add_pieces_of(const fs::path& file, const XmlElement& piece, VtkPart part, VtkContents& contents) {
     const fs::path path = file_of_piece(file, piece);
-    const std::string bytes = all_bytes(path);
-    const std::string type = vtk_file_type(bytes);
+    const std::string type = vtk_file_type(unpacked_head(path).bytes);
     if (is_list(type))
         refuse_vtk_line(file, piece.line,
                         fmt::format("its piece \"{}\" is a list of pieces itself",
@@ -158,8 +157,8 @@ std::optional<double> time_in_words(std::string_view words) {
 }
 
 VtkContents read_vtk_xml(const fs::path& file, VtkPart part) {
-    const std::string bytes = all_bytes(file);
-    const XmlTree tree = xml_tree(file, bytes);
+    const Content content(file);
+    const XmlTree tree = xml_tree(content);
     const std::string_view type = tree.root.attribute("type");
     if (type != "PolyData" && type != "UnstructuredGrid" && !is_list(type))
         refuse_type(file, tree.root, type);
@@ -167,7 +166,7 @@ VtkContents read_vtk_xml(const fs::path& file, VtkPart part) {
     if (set == nullptr)
         refuse_vtk_line(file, tree.root.line,
                         fmt::format("its element {} is missing; {}", type, kWriteAgain));
-    const XmlArrays arrays(file, bytes, tree);
+    const XmlArrays arrays(content, tree);
     VtkContents contents;
     contents.format = fmt::format("VTK XML, {}", type);
     read_words(tree, contents);

@@ -1,9 +1,11 @@
 #include "engine/files/foreign/vtk/xml_arrays.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
@@ -52,11 +54,11 @@ void check_finite(const std::vector<std::int64_t>&, const VtkPlace&) {}
 
 }  // namespace
 
-XmlArrays::XmlArrays(const fs::path& file, std::string_view bytes, const XmlTree& tree)
-    : file_(file), bytes_(bytes), tree_(tree), coding_(coding_of(file, tree.root)) {}
+XmlArrays::XmlArrays(const Content& content, const XmlTree& tree)
+    : content_(content), tree_(tree), coding_(coding_of(content.file(), tree.root)) {}
 
 VtkPlace XmlArrays::place_of(const XmlElement& array) const {
-    return {&file_, array.line, std::string(array.attribute("Name"))};
+    return {&file(), array.line, std::string(array.attribute("Name"))};
 }
 
 std::uint64_t XmlArrays::count_in(const XmlElement& element, std::string_view attribute) const {
@@ -66,7 +68,7 @@ std::uint64_t XmlArrays::count_in(const XmlElement& element, std::string_view at
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
     // A count is limited, so that the bytes of three doubles for each item do not overflow.
     if (error != std::errc() || end != text.data() + text.size() || count > (std::uint64_t{1} << 48))
-        refuse_vtk_line(file_, element.line, fmt::format("{}=\"{}\" is no count", attribute, excerpt(text)));
+        refuse_vtk_line(file(), element.line, fmt::format("{}=\"{}\" is no count", attribute, excerpt(text)));
     return count;
 }
 
@@ -83,13 +85,15 @@ bool XmlArrays::is_text(const XmlElement& array) const {
     return format.empty() || format == "ascii";
 }
 
-std::string_view XmlArrays::text_of_array(const XmlElement& array) const {
-    return bytes_.substr(array.begin, array.end - array.begin);
+std::string XmlArrays::short_text(const XmlElement& array) const {
+    const std::uint64_t size = array.end - array.begin;
+    if (size > Content::kPiece) return {};
+    return std::string(content_.from(array.begin).substr(0, static_cast<std::size_t>(size)));
 }
 
-XmlArrays::Stored XmlArrays::stored(const XmlElement& array) const {
+StoredText XmlArrays::stored(const XmlElement& array) const {
     const std::string_view format = array.attribute("format");
-    if (format == "binary") return {text_of_array(array), true};
+    if (format == "binary") return {array.begin, array.end, true};
     if (format != "appended")
         refuse_vtk(place_of(array),
                    fmt::format("format=\"{}\"; it must be ascii, binary or appended", excerpt(format)));
@@ -99,43 +103,100 @@ XmlArrays::Stored XmlArrays::stored(const XmlElement& array) const {
     if (offset >= size)
         refuse_vtk(place_of(array), fmt::format("begins at {}, and the appended data end at {}; {}", offset,
                                                 size, kWriteAgain));
-    return {bytes_.substr(tree_.appended_begin + offset, size - offset), tree_.appended_base64};
+    return {tree_.appended_begin + offset, tree_.appended_end, tree_.appended_base64};
 }
 
+namespace {
+
+constexpr std::uint64_t some_numbers = std::uint64_t{4} << 20;  // for so many, memory is asked for at once
+
+}  // namespace
+
+// Reads the numbers in a piece of an array's text, which begins at `place`.
 template <class T>
-void XmlArrays::read_text(const XmlElement& array, std::optional<std::uint64_t> count, bool finite,
-                          std::vector<T>& values) const {
-    const std::string_view text = text_of_array(array);
+void XmlArrays::read_words(std::string_view text, std::uint64_t place, const XmlElement& array,
+                           std::optional<std::uint64_t> count, bool finite, std::vector<T>& values) const {
     VtkWords words(text.data(), text.data() + text.size());
-    const auto line = [&] {
-        return line_of_byte(bytes_, static_cast<std::size_t>(words.at() - bytes_.data()));
+    const auto line = [&](const char* at) {
+        return content_.line_of(place + static_cast<std::uint64_t>(at - text.data()));
     };
-    if (count) values.reserve(*count);
     while (!words.at_end()) {
         const char* begin = words.at();
         double value = 0;
         if (!words.number(value)) {
-            const std::int64_t at = line();
-            refuse_vtk({&file_, at, place_of(array).array},
-                       fmt::format("\"{}\" is no number; {}", excerpt(words.word()), kWriteAgain));
+            const std::string word = excerpt(words.word());
+            refuse_vtk({&file(), line(begin), place_of(array).array},
+                       fmt::format("\"{}\" is no number; {}", word, kWriteAgain));
         }
         if (finite && !std::isfinite(value))
-            refuse_vtk_line(file_, line_of_byte(bytes_, static_cast<std::size_t>(begin - bytes_.data())),
+            refuse_vtk_line(file(), line(begin),
                             "a place that is no number; remove the point or write its place");
         if (count && values.size() == *count)
             refuse_vtk(
-                {&file_, line(), place_of(array).array},
+                {&file(), line(words.at()), place_of(array).array},
                 fmt::format("has more numbers than the {} that it must have; {}", *count, kWriteAgain));
         if constexpr (std::is_integral_v<T>)
             values.push_back(std::abs(value) < 9e15 ? static_cast<T>(value) : T(-1));
         else
             values.push_back(value);
     }
+}
+
+template <class T>
+void XmlArrays::read_text(const XmlElement& array, std::optional<std::uint64_t> count, bool finite,
+                          std::vector<T>& values) const {
+    if (count) values.reserve(std::min(*count, some_numbers));
+    std::uint64_t place = array.begin;
+    while (place < array.end) {
+        std::string_view text = content_.from(place).substr(0, static_cast<std::size_t>(array.end - place));
+        if (place + text.size() < array.end) text = text.substr(0, text.find_last_of(" \t\n\v\f\r") + 1);
+        if (text.empty())
+            refuse_vtk({&file(), content_.line_of(place), place_of(array).array},
+                       fmt::format("has a number of more than {} letters; {}", Content::kPiece, kWriteAgain));
+        const std::size_t size = text.size();
+        read_words(text, place, array, count, finite, values);
+        place += size;
+    }
     if (count && values.size() < *count)
-        refuse_vtk({&file_, line(), place_of(array).array},
+        refuse_vtk({&file(), content_.line_of(array.end), place_of(array).array},
                    fmt::format("has {} numbers of the {} that it must have; {}", values.size(), *count,
                                kWriteAgain));
 }
+
+namespace {
+
+// Turns the bytes of an array, which come in pieces, into at most `count` numbers.
+template <class T>
+class NumbersOfBytes {
+  public:
+    NumbersOfBytes(VtkType type, bool big_endian, std::uint64_t count, std::vector<T>& values)
+        : type_(type), big_endian_(big_endian), left_(count), values_(values) {}
+
+    void take(std::string_view bytes) {
+        if (!split_.empty()) {
+            split_ += bytes;
+            const std::string joined = std::exchange(split_, {});
+            take(joined);
+            return;
+        }
+        const std::uint64_t width = type_ == VtkType::bit ? 1 : bytes_of(type_, 1);
+        const std::uint64_t whole = bytes.size() / width;
+        const std::uint64_t numbers =
+            std::min<std::uint64_t>(left_, type_ == VtkType::bit ? 8 * whole : whole);
+        widen(bytes, type_, big_endian_, numbers, values_);
+        left_ -= numbers;
+        split_ = bytes.substr(whole * width);
+    }
+
+  private:
+    VtkType type_;
+    bool big_endian_;
+    std::uint64_t left_;
+    std::vector<T>& values_;
+    std::string split_{};  // the beginning of a number whose rest is in the next piece
+};
+
+}  // namespace
 
 template <class T>
 void XmlArrays::read(const XmlElement& array, std::optional<std::uint64_t> count, bool finite,
@@ -145,12 +206,12 @@ void XmlArrays::read(const XmlElement& array, std::optional<std::uint64_t> count
     if (is_text(array)) return read_text(array, count, finite, values);
     if (count && *count == 0) return;
     const VtkPlace place = place_of(array);
-    const Stored found = stored(array);
     std::optional<std::uint64_t> wanted;
     if (count) wanted = bytes_of(type, *count);
-    const std::string bytes = stored_array(found.text, found.base64, coding_, wanted, place);
-    const std::uint64_t holds = type == VtkType::bit ? 8 * bytes.size() : bytes.size() / bytes_of(type, 1);
-    widen(bytes, type, coding_.big_endian, count.value_or(holds), values);
+    if (count) values.reserve(std::min(*count, some_numbers));
+    NumbersOfBytes<T> numbers(type, coding_.big_endian, count.value_or(std::uint64_t{1} << 48), values);
+    stored_array(content_, stored(array), coding_, wanted, place,
+                 [&](std::string_view bytes) { numbers.take(bytes); });
     if (finite) check_finite(values, place);
 }
 
@@ -158,15 +219,14 @@ void XmlArrays::check(const XmlElement& array, std::uint64_t count) const {
     const VtkType type = type_of(array);
     if (is_text(array)) {
         // Each number takes a digit and something between it and the next.
-        if (count > text_of_array(array).size() / 2 + 1)
+        if (count > (array.end - array.begin) / 2 + 1)
             refuse_vtk(
                 place_of(array),
                 fmt::format("must have {} numbers, for which its text is too short; {}", count, kWriteAgain));
         return;
     }
     if (count == 0) return;
-    const Stored found = stored(array);
-    check_stored_array(found.text, found.base64, coding_, bytes_of(type, count), place_of(array));
+    check_stored_array(content_, stored(array), coding_, bytes_of(type, count), place_of(array));
 }
 
 std::vector<double> XmlArrays::numbers(const XmlElement& array, std::optional<std::uint64_t> count,
@@ -205,17 +265,18 @@ bool count_piece(const XmlArrays& arrays, const XmlElement& piece, RawMoment& mo
 }  // namespace
 
 bool count_by_head(const VtkPartFile& part_file, bool time_known, VtkParts& parts) {
-    const FileStart head = unpacked_head(part_file.file);
-    if (vtk_file_type(head.bytes) != "PolyData" || head.bytes.find("<AppendedData") == std::string::npos)
+    FileStart start = unpacked_head(part_file.file);
+    if (vtk_file_type(start.bytes) != "PolyData" || start.bytes.find("<AppendedData") == std::string::npos)
         return false;
     try {
-        const XmlTree tree = xml_tree(part_file.file, head.bytes);
+        const Content head(part_file.file, std::move(start.bytes));
+        const XmlTree tree = xml_tree(head);
         const XmlElement* set = tree.root.child("PolyData");
         if (set == nullptr) return false;
         // The time of the file may stand in the appended data, far behind the head.
         const bool own_time = set->child("FieldData") != nullptr || tree.root.child("FieldData") != nullptr;
         if (own_time && !time_known) return false;
-        const XmlArrays arrays(part_file.file, head.bytes, tree);
+        const XmlArrays arrays(head, tree);
         RawMoment moment;
         for (const XmlElement& piece : set->children)
             if (piece.name == "Piece" && !count_piece(arrays, piece, moment)) return false;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,7 +30,9 @@ struct VtkCoding {
 // each with its own padding at the end.
 class StoredStream {
   public:
-    StoredStream(std::string_view text, bool base64, const VtkPlace& place);
+    // The stream lies in [begin, end) of the content.
+    StoredStream(const Content& content, std::uint64_t begin, std::uint64_t end, bool base64,
+                 const VtkPlace& place);
 
     // The next so many bytes. Throws UserError where there are fewer, before memory is asked for.
     std::string take(std::uint64_t size);
@@ -38,28 +41,36 @@ class StoredStream {
 
   private:
     void decode(std::string& to, std::size_t size);
-    int next_letter();
+    // The next bytes of the text; empty at its end.
+    std::string_view left() const;
 
-    std::string_view left_;
+    const Content& content_;
+    std::uint64_t next_, end_;
     bool base64_;
     const VtkPlace& place_;
     std::string spare_{};  // decoded and not yet taken
 };
 
-// The bytes of one array. wanted: how many there must be, if that is known. Throws UserError for wrong
-// lengths, for damage and for an unknown compressor. The memory that it takes is limited by the size of the
-// text.
-std::string stored_array(std::string_view text, bool base64, const VtkCoding& coding,
-                         std::optional<std::uint64_t> wanted, const VtkPlace& place);
+// Where an array is stored: in [begin, end) of a content, raw or as base64.
+struct StoredText {
+    std::uint64_t begin = 0, end = 0;
+    bool base64 = false;
+};
+
+// Gives the bytes of one array to `take`, piece by piece. wanted: how many there must be, if that is known.
+// Throws UserError for wrong lengths, for damage and for an unknown compressor.
+void stored_array(const Content& content, const StoredText& text, const VtkCoding& coding,
+                  std::optional<std::uint64_t> wanted, const VtkPlace& place,
+                  const std::function<void(std::string_view)>& take);
 
 // Makes the same checks by the lengths only, so that a cut file is noticed when it is opened.
-void check_stored_array(std::string_view text, bool base64, const VtkCoding& coding,
+void check_stored_array(const Content& content, const StoredText& text, const VtkCoding& coding,
                         std::optional<std::uint64_t> wanted, const VtkPlace& place);
 
 class XmlArrays {
   public:
     // The arguments must outlive this object. Throws UserError for a head that is not understood.
-    XmlArrays(const std::filesystem::path& file, std::string_view bytes, const XmlTree& tree);
+    XmlArrays(const Content& content, const XmlTree& tree);
 
     // The numbers of a DataArray. count: how many there must be; none: any number. finite: NaN and infinity
     // are refused. Throws UserError with the line.
@@ -69,30 +80,28 @@ class XmlArrays {
     // Checks by the lengths only that there can be so many numbers.
     void check(const XmlElement& array, std::uint64_t count) const;
 
-    // The text of an array as it stands in the file.
-    std::string_view text_of_array(const XmlElement& array) const;
+    // The text of an array as it stands in the file; empty where it is longer than 1 MB.
+    std::string short_text(const XmlElement& array) const;
     VtkPlace place_of(const XmlElement& array) const;
     // The count in an attribute, or 0 without the attribute. Throws UserError where it is no count.
     std::uint64_t count_in(const XmlElement& element, std::string_view attribute) const;
-    const std::filesystem::path& file() const { return file_; }
+    const std::filesystem::path& file() const { return content_.file(); }
 
   private:
-    struct Stored {
-        std::string_view text;
-        bool base64;
-    };
     VtkType type_of(const XmlElement& array) const;
     bool is_text(const XmlElement& array) const;
-    Stored stored(const XmlElement& array) const;
+    StoredText stored(const XmlElement& array) const;
     template <class T>
     void read(const XmlElement& array, std::optional<std::uint64_t> count, bool finite,
               std::vector<T>& values) const;
     template <class T>
     void read_text(const XmlElement& array, std::optional<std::uint64_t> count, bool finite,
                    std::vector<T>& values) const;
+    template <class T>
+    void read_words(std::string_view text, std::uint64_t place, const XmlElement& array,
+                    std::optional<std::uint64_t> count, bool finite, std::vector<T>& values) const;
 
-    const std::filesystem::path& file_;
-    std::string_view bytes_;
+    const Content& content_;
     const XmlTree& tree_;
     VtkCoding coding_;
 };

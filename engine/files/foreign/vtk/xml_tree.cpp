@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <system_error>
 
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
@@ -14,8 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_depth = 64, most_comments = 16, most_of_a_comment = 1000;
-constexpr std::size_t bytes_at_once = std::size_t{1} << 20;
-constexpr std::string_view appended_tag = "<AppendedData", appended_close = "</AppendedData>";
+constexpr std::uint64_t kTail = 65536;  // bytes at the end in which the end of AppendedData is looked for
+constexpr std::uint64_t longest_token = std::uint64_t{8} << 20;  // bytes of a tag or a comment
+constexpr std::string_view appended_name = "AppendedData", appended_close = "</AppendedData>";
 
 struct FreeParser {
     void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
@@ -49,20 +51,26 @@ std::size_t bytes_of(XML_Parser parser) {
 // Makes the tree from the events of expat.
 class Builder {
   public:
-    Builder() : parser_(XML_ParserCreate(nullptr)) {
+    // most_bytes: memory of the elements.
+    explicit Builder(std::uint64_t most_bytes) : parser_(XML_ParserCreate(nullptr)), most_bytes_(most_bytes) {
         XML_SetUserData(parser_.get(), this);
         XML_SetElementHandler(parser_.get(), &Builder::on_start, &Builder::on_end);
         XML_SetCommentHandler(parser_.get(), &Builder::on_comment);
         XML_SetStartDoctypeDeclHandler(parser_.get(), &Builder::on_doctype);
     }
 
-    bool feed(std::string_view bytes, bool last) {
-        while (bytes.size() > bytes_at_once) {
-            if (!parse(bytes.substr(0, bytes_at_once), false)) return false;
-            bytes.remove_prefix(bytes_at_once);
-        }
-        return parse(bytes, last);
+    // Parses the next bytes; none at the end of the file. False once nothing more is to be parsed.
+    bool feed(std::string_view bytes) {
+        fed_ += bytes.size();
+        const bool good = XML_Parse(parser_.get(), bytes.data(), static_cast<int>(bytes.size()),
+                                    bytes.empty()) == XML_STATUS_OK;
+        // A tag or a comment that has not ended yet is kept in memory.
+        if (good && fed_ - byte() > longest_token)
+            stop("has a tag or a comment of more than 8 MB; it is no file of VTK");
+        return good && complaint_.empty();
     }
+    // The place behind the opening tag of AppendedData, where parsing ends; 0 without one.
+    std::uint64_t appended() const { return appended_; }
     std::int64_t line() const { return line_of(parser_.get()); }
     bool at_end_of_file() const {
         const XML_Error error = XML_GetErrorCode(parser_.get());
@@ -78,13 +86,10 @@ class Builder {
     }
     bool refused() const { return !complaint_.empty(); }
 
-    std::vector<XmlElement> top;
+    std::list<XmlElement> top;
     std::vector<std::string> comments;
 
   private:
-    bool parse(std::string_view bytes, bool last) {
-        return XML_Parse(parser_.get(), bytes.data(), static_cast<int>(bytes.size()), last) == XML_STATUS_OK;
-    }
     std::size_t byte() const { return byte_of(parser_.get()); }
 
     void stop(std::string why) {
@@ -104,15 +109,23 @@ class Builder {
         if (open_.size() >= most_depth)
             return stop("has elements within elements without an end; it is no file of VTK");
         XmlElement* parent = innermost();
-        std::vector<XmlElement>& among = parent == nullptr ? top : parent->children;
+        std::list<XmlElement>& among = parent == nullptr ? top : parent->children;
         XmlElement& element = among.emplace_back();
         element.name = name;
-        for (; attributes[0] != nullptr; attributes += 2)
-            element.attributes.emplace_back(attributes[0], attributes[1]);
+        bytes_ += sizeof element + element.name.size();
+        for (; attributes[0] != nullptr; attributes += 2) {
+            const auto& [key, value] = element.attributes.emplace_back(attributes[0], attributes[1]);
+            bytes_ += 2 * sizeof value + key.size() + value.size();
+        }
+        if (bytes_ > most_bytes_)
+            return stop("has more elements than any file of VTK; is this the right file?");
         element.line = line();
         element.begin = element.end = byte() + bytes_of(parser_.get());
         open_.push_back(&element);
         ended_ = false;
+        if (element.name != appended_name) return;
+        appended_ = element.begin;
+        XML_StopParser(parser_.get(), XML_FALSE);
     }
     void end() {
         end_text();
@@ -139,33 +152,37 @@ class Builder {
     std::vector<XmlElement*> open_;  // open elements; each is the last child of the one before it
     bool ended_ = true;              // the text of the innermost one has ended
     std::string complaint_;
+    std::uint64_t fed_ = 0, appended_ = 0;
+    std::uint64_t bytes_ = 0;  // of the elements in memory
+    const std::uint64_t most_bytes_;
 };
 
-// The end of the XML in the file: after the opening tag of AppendedData, or the end of the file.
-std::size_t end_of_xml(std::string_view bytes) {
-    const std::size_t tag = bytes.find(appended_tag);
-    if (tag == std::string_view::npos) return bytes.size();
-    const std::size_t close = bytes.find('>', tag);
-    return close == std::string_view::npos ? bytes.size() : close + 1;
-}
-
-void find_appended(const fs::path& file, std::string_view bytes, std::size_t from, XmlTree& tree) {
-    const XmlElement* element = tree.root.child("AppendedData");
+void find_appended(const Content& content, std::uint64_t from, XmlTree& tree) {
+    const XmlElement* element = tree.root.child(appended_name);
     if (element == nullptr) return;
     const std::string_view encoding = element->attribute("encoding");
     tree.appended_base64 = encoding == "base64" || encoding.empty();
     if (!tree.appended_base64 && encoding != "raw")
-        refuse_vtk_line(file, element->line,
+        refuse_vtk_line(content.file(), element->line,
                         fmt::format("appended data in \"{}\", which is not read; write them raw or as base64",
                                     encoding.substr(0, 40)));
-    while (from < bytes.size() && bytes[from] != '_') {
-        if (std::string_view(" \t\r\n").find(bytes[from]) == std::string_view::npos) return;
-        ++from;
-    }
-    if (from == bytes.size()) return;
-    tree.appended_begin = from + 1;
-    const std::size_t close = bytes.rfind(appended_close);
-    tree.appended_end = close == std::string_view::npos || close < from + 1 ? bytes.size() : close;
+    const std::uint64_t size = content.size();
+    std::string_view piece = content.from(from);
+    const std::size_t blanks = piece.find_first_not_of(" \t\r\n");
+    if (blanks == std::string_view::npos || piece[blanks] != '_') return;
+    tree.appended_begin = from + blanks + 1;
+    const std::uint64_t last = std::max(tree.appended_begin, size - std::min<std::uint64_t>(size, kTail));
+    piece = content.from(last);
+    const std::size_t close = piece.rfind(appended_close);
+    tree.appended_end = close == std::string_view::npos ? size : last + close;
+}
+
+// The most memory that the elements of a file may take. A list of many files has many elements.
+std::uint64_t most_memory(const Content& content) {
+    constexpr std::uint64_t some = std::uint64_t{24} << 20;
+    std::error_code error;
+    const std::uintmax_t on_disk = fs::file_size(content.file(), error);
+    return some + (error ? 0 : 8 * on_disk);
 }
 
 }  // namespace
@@ -187,24 +204,30 @@ const XmlElement* XmlElement::child(std::string_view wanted) const {
     return nullptr;
 }
 
-XmlTree xml_tree(const fs::path& file, std::string_view bytes, bool may_end_early) {
-    const std::size_t end = end_of_xml(bytes);
-    const bool appended = end < bytes.size();
-    const bool empty_tag = appended && end >= 2 && bytes[end - 2] == '/';
-    Builder builder;
+XmlTree xml_tree(const Content& content, bool may_end_early) {
+    const fs::path& file = content.file();
+    Builder builder(most_memory(content));
     XmlTree tree;
-    bool good = builder.feed(bytes.substr(0, end), !appended);
-    if (good && appended) good = builder.feed(empty_tag ? "</VTKFile>" : "</AppendedData></VTKFile>", true);
-    if (!good) {
+    std::uint64_t place = 0;
+    bool good = true, ended = false;
+    while (good && !ended) {
+        const std::string_view piece = content.from(place).substr(0, Content::kPiece);
+        ended = piece.empty();
+        place += piece.size();
+        good = builder.feed(piece);
+    }
+    const std::uint64_t appended = builder.refused() ? 0 : builder.appended();
+    if (!good && appended == 0) {
         tree.cut_off = !builder.refused() && builder.at_end_of_file();
         if (!tree.cut_off || !may_end_early || builder.top.empty())
             refuse_vtk_line(file, builder.line(), builder.complaint());
     }
-    if (builder.top.empty() || builder.top[0].name != "VTKFile")
+    if (builder.top.empty() || builder.top.front().name != "VTKFile")
         refuse_vtk_line(file, 1, "this XML is no file of VTK: its element VTKFile is missing");
-    tree.root = std::move(builder.top[0]);
+    tree.root = std::move(builder.top.front());
     tree.comments = std::move(builder.comments);
-    if (appended && !empty_tag) find_appended(file, bytes, end, tree);
+    const bool empty_tag = appended > 1 && content.from(appended - 2, 1).starts_with('/');
+    if (appended > 0 && !empty_tag) find_appended(content, appended, tree);
     return tree;
 }
 

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <list>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "engine/files/foreign/content.hpp"
 
 namespace grainreel {
 
@@ -15,8 +17,8 @@ struct XmlElement {
     std::string name;
     std::vector<std::pair<std::string, std::string>> attributes;
     std::int64_t line = 0;
-    std::size_t begin = 0, end = 0;  // place of its text before its first child
-    std::vector<XmlElement> children;
+    std::uint64_t begin = 0, end = 0;  // place of its text before its first child
+    std::list<XmlElement> children;    // a list, which needs no second copy to grow
 
     // The value of an attribute; empty where there is none.
     std::string_view attribute(std::string_view name) const;
@@ -29,14 +31,15 @@ struct XmlTree {
     XmlElement root;
     std::vector<std::string> comments;  // the first few of them
     // The bytes of the file after the "_" of AppendedData; both are equal where there are none.
-    std::size_t appended_begin = 0, appended_end = 0;
+    std::uint64_t appended_begin = 0, appended_end = 0;
     bool appended_base64 = false;
     bool cut_off = false;  // the file ends before its last element is closed
 };
 
 // Raw appended data are not XML, so only the part before them is parsed. Throws UserError with the line where
-// the XML is damaged. may_end_early: a file that ends within an element is used as far as it goes.
-XmlTree xml_tree(const std::filesystem::path& file, std::string_view bytes, bool may_end_early = false);
+// the XML is damaged, and where its elements would take more memory than any file of VTK needs.
+// may_end_early: a file that ends within an element is used as far as it goes.
+XmlTree xml_tree(const Content& content, bool may_end_early = false);
 
 // The attribute `type` of VTKFile near the beginning of a file, "PolyData"; "unknown" where VTKFile has none,
 // empty where the file is no VTK file.

@@ -51,6 +51,9 @@ class Trajectory final : public StateArchive {
     }
     const std::vector<State>& moments() const override { return moments_; }
     State grains(std::size_t index) const override { return with_planes(reader_.read(places_.at(index))); }
+    std::optional<WorldCell> cell(std::size_t index) const override {
+        return scene_ ? world_.cell : world_cell(reader_.cell(places_.at(index)));
+    }
     const Scene* scene() const override { return scene_ ? &*scene_ : nullptr; }
     std::size_t place(std::size_t index) const override { return places_.at(index); }
     std::vector<std::string> damage() const override { return damage_; }
@@ -77,6 +80,8 @@ class Trajectory final : public StateArchive {
         world_.program_version = in_file.program_version;
         world_.most_grains = in_file.most_grains;
         world_.traffic = in_file.traffic;
+        world_.steps_known = in_file.steps_known;
+        world_.first_id = in_file.first_id;
     }
 
     State with_planes(State frame) const {

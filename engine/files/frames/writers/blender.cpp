@@ -78,8 +78,12 @@ def instances(name, ball):
     points = bpy.data.objects.new(name, mesh)
     bpy.context.collection.objects.link(points)
     tree = bpy.data.node_groups.new(name, "GeometryNodeTree")
-    tree.inputs.new("NodeSocketGeometry", "Geometry")
-    tree.outputs.new("NodeSocketGeometry", "Geometry")
+    if hasattr(tree, "interface"):  # Blender 4.0 and later
+        for way in ("INPUT", "OUTPUT"):
+            tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    else:
+        tree.inputs.new("NodeSocketGeometry", "Geometry")
+        tree.outputs.new("NodeSocketGeometry", "Geometry")
     nodes, links = tree.nodes, tree.links
     begin, end = nodes.new("NodeGroupInput"), nodes.new("NodeGroupOutput")
     info, on = nodes.new("GeometryNodeObjectInfo"), nodes.new("GeometryNodeInstanceOnPoints")
@@ -144,7 +148,7 @@ for wall in head["walls"]:
 middle, size = Vector((low + high) / 2), float(np.linalg.norm(high - low))
 camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
 camera.data.clip_start, camera.data.clip_end = size / 1000, size * 100
-camera.location = middle + Vector((1.3, -0.5, 0.35)).normalized() * 2.2 * size  # all of the container is seen
+camera.location = middle + Vector((1.3, -0.5, 0.35)).normalized() * 2.8 * size  # all of the container is seen
 camera.rotation_euler = (middle - camera.location).to_track_quat("-Z", "Y").to_euler()
 sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
 sun.data.energy = 2

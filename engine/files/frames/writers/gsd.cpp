@@ -50,6 +50,8 @@ class Gsd final : public StateWriter {
         supply_ = supply;
     }
 
+    void cell(const std::optional<WorldCell>& now) override { world_.cell = now; }
+
     void frame(const State& frame, const std::vector<Link>&) override {
         const std::size_t n = frame.size();
         const WorldCell box = box_of(world_, frame);
@@ -70,8 +72,9 @@ class Gsd final : public StateWriter {
         lengths[4] = lz != 0 ? static_cast<float>(box.edges[2].x() / lz) : 0;
         lengths[5] = lz != 0 ? static_cast<float>(box.edges[2].y() / lz) : 0;
 
-        chunk<std::uint64_t>("configuration/step", kUint64, 1,
-                             {static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.step))});
+        if (world_.steps_known)
+            chunk<std::uint64_t>("configuration/step", kUint64, 1,
+                                 {static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.step))});
         chunk<float>("configuration/box", kFloat, 1, std::vector<float>(lengths, lengths + 6));
         chunk<std::uint32_t>("particles/N", kUint32, 1, {static_cast<std::uint32_t>(n)});
         write_types();

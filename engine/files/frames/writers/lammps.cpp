@@ -12,12 +12,19 @@ namespace grainreel {
 
 namespace {
 
+// What is added to ids, because LAMMPS counts atoms from 1. It is the same in both formats, so that read_dump
+// finds the atoms of read_data.
+std::int32_t shift_of_ids(const StoredWorld& world) {
+    return world.first_id == 0 ? 1 : 0;
+}
+
 // A data file with atom_style sphere (LAMMPS manual, command read_data).
 class LammpsData final : public StateWriter {
   public:
     explicit LammpsData(const std::filesystem::path& path) : path_(path) {}
 
     void begin(const StoredWorld& world, const StateSupply&) override { world_ = world; }
+    void cell(const std::optional<WorldCell>& now) override { world_.cell = now; }
     void frame(const State& frame, const std::vector<Link>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame to make a data file of");
@@ -37,8 +44,7 @@ class LammpsData final : public StateWriter {
                             box.origin[axis] + box.edges[static_cast<std::size_t>(axis)][axis], names[axis]);
         const double xy = box.edges[1].x(), xz = box.edges[2].x(), yz = box.edges[2].y();
         if (xy != 0 || xz != 0 || yz != 0) text += fmt::format("{} {} {} xy xz yz\n", xy, xz, yz);
-        // Ids begin at 1 in LAMMPS.
-        const int shift = frame.size() > 0 && frame.id.front() == 0 ? 1 : 0;
+        const std::int32_t shift = shift_of_ids(world_);
         text += "\nAtoms # sphere\n\n";
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3 x = inside(frame.position[i], box);
@@ -92,6 +98,7 @@ class LammpsDump final : public StateWriter {
     void frame(const State& frame, const std::vector<Link>&) override {
         std::string& text = out_.text();
         const WorldCell box = box_of(world_, frame);
+        const std::int32_t shift = shift_of_ids(world_);
         if (world_.time_known) text += fmt::format("ITEM: TIME\n{}\n", frame.time);
         text += fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\n", frame.step, frame.size());
         write_box(box, text);
@@ -101,8 +108,8 @@ class LammpsDump final : public StateWriter {
         text += '\n';
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
-            text += fmt::format("{} {} {} {} {} {}", frame.id[i], frame.species[i] + 1, x.x(), x.y(), x.z(),
-                                frame.radius[i]);
+            text += fmt::format("{} {} {} {} {} {}", frame.id[i] + shift, frame.species[i] + 1, x.x(), x.y(),
+                                x.z(), frame.radius[i]);
             if (supply_.velocities)
                 text += fmt::format(" {} {} {} {} {} {}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
             if (!frame.orientation.empty()) {
@@ -114,6 +121,11 @@ class LammpsDump final : public StateWriter {
         }
     }
     void end() override { out_.flush(); }
+    std::vector<std::string> news() const override {
+        if (world_.steps_known) return {};
+        return {"--to lammps-dump: the files say no steps, so TIMESTEP numbers their frames from 0"};
+    }
+    void cell(const std::optional<WorldCell>& now) override { world_.cell = now; }
 
   private:
     // A tilted box is written by the bounds of the box around it (manual, Howto_triclinic).

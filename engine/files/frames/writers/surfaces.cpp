@@ -1,6 +1,6 @@
 // Two writers of triangles, both of the last frame: glTF 2.0 (.glb) and binary STL (.stl). In glTF each
-// species has one sphere mesh, drawn by instances (EXT_mesh_gpu_instancing); lengths are in m and y points
-// up.
+// species has one sphere mesh. In small beds each grain is a node that shows it; in large ones the spheres
+// are instances (EXT_mesh_gpu_instancing), which not all programs read. Lengths are in m and y points up.
 
 #include <cmath>
 #include <cstdint>
@@ -37,7 +37,6 @@ class Glb {
   public:
     Glb() {
         json_["asset"] = {{"version", "2.0"}, {"generator", "grainreel"}};
-        json_["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
         for (const char* list : {"nodes", "meshes", "materials", "accessors", "bufferViews"})
             json_[list] = Json::array();
     }
@@ -92,13 +91,20 @@ class Glb {
               {{{"attributes", attributes}, {"indices", indices(corners)}, {"material", material_number}}}}});
         return json_["meshes"].size() - 1;
     }
-    void node(Json one) { json_["nodes"].push_back(std::move(one)); }
+    std::size_t node(Json one) {
+        json_["nodes"].push_back(std::move(one));
+        return json_["nodes"].size() - 1;
+    }
+    // Adds a node that is part of the scene itself, and not of another node.
+    void root(Json one) { roots_.push_back(node(std::move(one))); }
+    // A program without this extension must not open the file: it would draw one sphere of 1 m a species.
+    void need_instances() {
+        json_["extensionsUsed"] = json_["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+    }
 
     // The whole file: "glTF", version and length, then the chunk "JSON" and the chunk "BIN".
     std::string bytes() {
-        Json all = Json::array();
-        for (std::size_t k = 0; k < json_["nodes"].size(); ++k) all.push_back(k);
-        json_["scenes"] = {{{"nodes", all}}};
+        json_["scenes"] = {{{"nodes", roots_}}};
         json_["scene"] = 0;
         json_["buffers"] = {{{"byteLength", buffer_.size()}}};
         std::string text = json_.dump();
@@ -127,7 +133,7 @@ class Glb {
         return json_["bufferViews"].size() - 1;
     }
 
-    Json json_;
+    Json json_, roots_ = Json::array();
     std::string buffer_;
 };
 
@@ -193,26 +199,55 @@ class Gltf final : public StateWriter {
                 for (const std::int32_t v : t) corners.push_back(static_cast<std::uint32_t>(v));
             const std::size_t number =
                 glb.mesh(surface.name, places, {}, corners, glb.material(surface.name, glass, 0.3));
-            glb.node({{"name", surface.name}, {"mesh", number}});
+            glb.root({{"name", surface.name}, {"mesh", number}});
         }
         TextFile(path_).write(glb.bytes());
     }
 
   private:
+    static constexpr std::size_t kMostNodes = 5000;  // viewers stay quick with so many
+
     void add_species(std::size_t s, const Sphere& sphere, Glb& glb) const {
+        std::vector<std::size_t> grains;
+        for (std::size_t i = 0; i < last_->size(); ++i)
+            if (static_cast<std::size_t>(last_->species[i]) == s) grains.push_back(i);
+        if (grains.empty()) return;
+        const std::string& name = world_.species[s].name;
+        const std::size_t colour = glb.material(name, kColours[s % std::size(kColours)], 1);
+        const std::size_t mesh = glb.mesh(name, sphere.places, sphere.places, sphere.corners, colour);
+        if (last_->size() <= kMostNodes)
+            add_nodes(name, mesh, grains, glb);
+        else
+            add_instances(name, mesh, grains, glb);
+    }
+
+    // A node for each grain, under one of the species' name.
+    void add_nodes(const std::string& name, std::size_t mesh, const std::vector<std::size_t>& grains,
+                   Glb& glb) const {
+        Json children = Json::array();
+        for (const std::size_t i : grains) {
+            const Vec3 place = turned(last_->position[i]);
+            const auto size = static_cast<float>(last_->radius[i]);
+            children.push_back(glb.node({{"mesh", mesh},
+                                         {"translation",
+                                          {static_cast<float>(place.x()), static_cast<float>(place.y()),
+                                           static_cast<float>(place.z())}},
+                                         {"scale", {size, size, size}}}));
+        }
+        glb.root({{"name", name}, {"children", children}});
+    }
+
+    void add_instances(const std::string& name, std::size_t mesh, const std::vector<std::size_t>& grains,
+                       Glb& glb) const {
         std::vector<float> places, sizes;
-        for (std::size_t i = 0; i < last_->size(); ++i) {
-            if (static_cast<std::size_t>(last_->species[i]) != s) continue;
+        for (const std::size_t i : grains) {
             for (int axis = 0; axis < 3; ++axis) {
                 places.push_back(static_cast<float>(turned(last_->position[i])[axis]));
                 sizes.push_back(static_cast<float>(last_->radius[i]));
             }
         }
-        if (places.empty()) return;
-        const std::string& name = world_.species[s].name;
-        const std::size_t colour = glb.material(name, kColours[s % std::size(kColours)], 1);
-        const std::size_t mesh = glb.mesh(name, sphere.places, sphere.places, sphere.corners, colour);
-        glb.node({{"name", name},
+        glb.need_instances();
+        glb.root({{"name", name},
                   {"mesh", mesh},
                   {"extensions",
                    {{"EXT_mesh_gpu_instancing",
@@ -277,8 +312,7 @@ class Stl final : public StateWriter {
 }  // namespace
 
 WriteFormat gltf_format() {
-    return {"gltf", "glTF 2.0 (.glb) of the last frame: instanced spheres and walls", ".glb",
-            make_writer<Gltf>};
+    return {"gltf", "glTF 2.0 (.glb) of the last frame: spheres and walls", ".glb", make_writer<Gltf>};
 }
 
 WriteFormat stl_format() {

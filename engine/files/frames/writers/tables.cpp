@@ -21,7 +21,9 @@ class Csv final : public StateWriter {
         world_ = world;
         supply_ = supply;
         if (world.time_known) out_.text() += "time,";
-        out_.text() += "step,id,type,species,x,y,z,radius";
+        if (world.steps_known) out_.text() += "step,";
+        if (!world.time_known && !world.steps_known) out_.text() += "frame,";
+        out_.text() += "id,type,species,x,y,z,radius";
         if (supply.velocities) out_.text() += ",vx,vy,vz,wx,wy,wz";
         if (supply.contact_numbers) out_.text() += ",contact_number";
         out_.text() += '\n';
@@ -32,7 +34,8 @@ class Csv final : public StateWriter {
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
             const auto s = static_cast<std::size_t>(frame.species[i]);
             if (world_.time_known) text += fmt::format("{},", frame.time);
-            text += fmt::format("{},{},{},{},{},{},{},{}", frame.step, frame.id[i], s + 1,
+            if (world_.steps_known || !world_.time_known) text += fmt::format("{},", frame.step);
+            text += fmt::format("{},{},{},{},{},{},{}", frame.id[i], s + 1,
                                 s < world_.species.size() ? one_word(world_.species[s].name) : "", x.x(),
                                 x.y(), x.z(), frame.radius[i]);
             if (supply_.velocities)
@@ -79,6 +82,7 @@ class Xyz final : public StateWriter {
         world_ = world;
         supply_ = supply;
     }
+    void cell(const std::optional<WorldCell>& now) override { world_.cell = now; }
     void frame(const State& frame, const std::vector<Link>&) override {
         std::string& text = out_.text();
         const WorldCell box = box_of(world_, frame);
@@ -86,9 +90,10 @@ class Xyz final : public StateWriter {
         const auto flag = [&](std::size_t axis) { return box.periodic[axis] ? 'T' : 'F'; };
         text += fmt::format(
             "{}\nLattice=\"{} {} {}\" Origin=\"{}\" pbc=\"{} {} {}\" "
-            "Properties=element:S:1:pos:R:3:radius:R:1{}:id:I:1 Step={}{}\n",
+            "Properties=element:S:1:pos:R:3:radius:R:1{}:id:I:1{}{}\n",
             frame.size(), edge(box.edges[0]), edge(box.edges[1]), edge(box.edges[2]), edge(box.origin),
-            flag(0), flag(1), flag(2), supply_.velocities ? ":velo:R:3:omega:R:3" : "", frame.step,
+            flag(0), flag(1), flag(2), supply_.velocities ? ":velo:R:3:omega:R:3" : "",
+            world_.steps_known ? fmt::format(" Step={}", frame.step) : "",
             world_.time_known ? fmt::format(" Time={}", frame.time) : "");
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];

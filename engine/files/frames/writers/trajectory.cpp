@@ -30,6 +30,11 @@ class Trajectory final : public StateWriter {
         info_ = trajectory_info(world, supply);
         if (info_.capacity > 0) writer_.emplace(path_, info_);
     }
+    void cell(const std::optional<WorldCell>& now) override {
+        if (!now) return;
+        info_.cell = trajectory_cell(*now);
+        if (writer_) writer_->set_cell(info_.cell);
+    }
     void frame(const State& frame, const std::vector<Link>&) override {
         count(frame);
         if (!writer_) {
@@ -94,8 +99,8 @@ class Trajectory final : public StateWriter {
 }  // namespace
 
 WriteFormat trajectory_format() {
-    return {"netcdf", "a trajectory.nc, as runs have it; OVITO and any AMBER reader open it", ".nc",
-            make_writer<Trajectory>};
+    return {"netcdf", "a trajectory.nc, as runs have it: AMBER NetCDF in SI units; OVITO and ASE open it",
+            ".nc", make_writer<Trajectory>};
 }
 
 }  // namespace grainreel

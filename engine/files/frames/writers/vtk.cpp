@@ -155,6 +155,7 @@ class Vtk final : public StateWriter {
         contacts_ = contacts;
         has_forces_ = true;
     }
+    void cell(const std::optional<WorldCell>& now) override { world_.cell = now; }
     void frame(const State& frame, const std::vector<Link>& touches) override {
         VtkPolyData grains = grains_of(frame, world_, supply_);
         if (has_forces_) {
@@ -201,7 +202,7 @@ class Vtk final : public StateWriter {
         // Frames without times are numbered instead.
         const double time = world_.time_known ? frame.time : static_cast<double>(frames_);
         if (world_.time_known) data.facts.time = time;
-        data.facts.step = frame.step;
+        if (world_.steps_known) data.facts.step = frame.step;
         const std::string file = fmt::format("{}_{:06d}.vtp", name, frames_);
         TextFile(folder_ / file).write(vtk_bytes(data));
         entries_.push_back({time, part, file});

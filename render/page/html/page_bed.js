@@ -5,9 +5,9 @@
 //   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the moment
 //   before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence; and, where the film colours its
 //   grains by a quantity, N bytes of that: 0 where it is not known, else 1 to 255 over the film's range.
-// Where a grain is not present, its differences, speed and presence are 0. render/page/bed/bed_frames.hpp describes the
-// same bytes, which bed_frames.cpp writes. A place is low + number (high - low) / 65535 along each axis.
-class BedFrames {
+// Where a grain is not present, its differences, speed and presence are 0. render/page/bed/page_bed.hpp describes the
+// same bytes, which page_bed.cpp writes. A place is low + number (high - low) / 65535 along each axis.
+class PageBed {
     constructor(facts, bytes) {
         Object.assign(this, facts); // grains, times, low, high, places, speed, ...
         const n = this.grains, k = this.times.length;
