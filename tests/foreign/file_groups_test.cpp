@@ -38,7 +38,7 @@ class FileGroups : public testing::Test {
             const State frame = all.grains(k);
             EXPECT_THAT(frame.id, ElementsAre(1, 2, 3, 4));
             for (const Vec3& place : frame.position)
-                EXPECT_DOUBLE_EQ(place.z(), 1e-3 * all.moments()[k].step);
+                EXPECT_DOUBLE_EQ(place.z(), 1e-3 * static_cast<double>(all.moments()[k].step));
             EXPECT_EQ(all.written_step(k), 100 * static_cast<int>(k));
         }
     }

@@ -67,8 +67,8 @@ std::unique_ptr<StateWriter> frame_writer(const std::string& format, const std::
 
 // Which frames of an archive are exported.
 struct ExportChoice {
-    std::optional<double> from, until, at;  // s
-    std::int64_t every = 1;                 // one of so many frames is taken
+    std::optional<double> from{}, until{}, at{};  // s
+    std::int64_t every = 1;                       // one of so many frames is taken
 };
 
 struct Exported {
