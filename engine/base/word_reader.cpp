@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "engine/base/error.hpp"
+#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 
 namespace grainreel {
@@ -36,14 +39,35 @@ std::string_view WordReader::take_word() {
     return word;
 }
 
-std::string_view WordReader::next() {
+bool WordReader::has_word() {
     while (!left_.empty() && (is_blank(left_[0]) || is_end(left_[0]))) {
         if (is_end(left_[0]))
             end_line();
         else
             left_.remove_prefix(1);
     }
+    return !left_.empty();
+}
+
+std::string_view WordReader::next() {
+    has_word();
     return take_word();
+}
+
+// The end of a plain number is not looked for before it is read, which is faster.
+std::optional<double> WordReader::next_number() {
+    if (!has_word()) return std::nullopt;
+    const char *const begin = left_.data(), *const end = begin + left_.size();
+    double value = 0;
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    if (error == std::errc() && (stop == end || is_blank(*stop) || is_end(*stop))) {
+        left_.remove_prefix(static_cast<std::size_t>(stop - begin));
+        return value;
+    }
+    const std::string_view before = left_;
+    const std::optional<double> odd = number_in(take_word(), Dialect::programs);
+    if (!odd) left_ = before;
+    return odd;
 }
 
 std::string_view WordReader::next_in_line() {

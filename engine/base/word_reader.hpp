@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,9 +20,14 @@ class WordReader {
     std::string_view next();
     // The next word of this line; empty at its end.
     std::string_view next_in_line();
+    // The next word as a number of programs; none where it is no number, or at the end. Then the word is
+    // next.
+    std::optional<double> next_number();
+    // Skips blanks and ends of lines. Returns whether a word follows.
+    bool has_word();
     // Skips the rest of this line. The next word is then the first word of the next line.
     void skip_line();
-    // The line of the last word.
+    // The line of the last word, or of the next one after has_word().
     std::int64_t line() const { return line_; }
     bool at_end() const { return left_.empty(); }
     std::string_view left() const { return left_; }

@@ -38,15 +38,20 @@ class Checksum {
     std::uint64_t sum_ = 0;
 };
 
-// The largest coordinate (m) that a frame may have. No bed of grains reaches so far, and code that draws can
-// still compute with it.
-constexpr double kFarthestPlace = 1e6;
+// The largest numbers that the grains of a frame may have. No bed of grains reaches them, and code that draws
+// can still compute with them.
+constexpr double kFarthestPlace = 1e6;  // m
+constexpr double kLargestRadius = 1e3;  // m
+constexpr double kFastest = 1e6;        // m/s
+constexpr double kFastestSpin = 1e12;   // rad/s
+constexpr double kLongestTime = 1e9;    // s
 
 // The first fault of a frame as text: "its time is nan s", "grain 12 has a radius of -1 m"; none when all
 // numbers are possible. moment_fault() looks at time, phase and poses, grains_fault() at the grains.
-// `species` is the number of species that there are.
+// `species` is the number of species that there are. `unknown`: whether velocities and spins may be NaN, as
+// in runs of other programs.
 std::optional<std::string> moment_fault(const State& frame);
-std::optional<std::string> grains_fault(const State& frame, std::size_t species);
+std::optional<std::string> grains_fault(const State& frame, std::size_t species, bool unknown = false);
 
 // One frame of a file is damaged: its checksum does not fit its numbers, or it has numbers that no run can
 // have (NaN, a radius of 0, an unknown species). The other frames may be whole.

@@ -139,6 +139,7 @@ BroughtBack bring_back(const fs::path& folder, const std::string& version,
         back.whole = run.last()->step >= facts.last;
         RunJson record;
         run.close(record);
+        if (std::string text = run.overlap_text(); !text.empty()) back.news.push_back(std::move(text));
     }
     made->move_out();
     if (!back.whole) back.news.push_back(came_so_far(folder, facts, back.until, plan.clock.time(facts.last)));
@@ -278,9 +279,14 @@ void ReturnedRun::close(RunJson& record) {
     record.trajectory_frames = m.arrival.frames();
     record.measures_rows = m.arrival.rows();
     if (!m.last) return;
+    if (m.health.deepest().share > 0) record.deepest = m.health.deepest();
     record.steps = m.last->step;
     record.simulated = m.last->time;
     record.final_table = write_grain_table(m.folder / kFinalTable, *m.last);
+}
+
+std::string ReturnedRun::overlap_text() const {
+    return impl_->health.overlap_text();
 }
 
 std::int64_t ReturnedRun::frames() const {

@@ -25,7 +25,7 @@ struct BroughtBack {
     std::int64_t frames = 0;
     double until = 0;               // s, time of the last frame
     bool whole = false;             // whether the run has come to its end
-    std::vector<std::string> news;  // what the user should know of a run that is not whole, a line each
+    std::vector<std::string> news;  // what the user should know of the run, a line each
 };
 
 // Writes trajectory.nc, measures.csv, final.csv and, for a scene with an outlet, outflow.csv beside the dump,
@@ -79,6 +79,8 @@ class ReturnedRun {
     // Writes final.csv of the last frame, and what run.json says about the files.
     void close(RunJson& record);
 
+    // A line about the contact that overlapped far more than planned; empty where none did.
+    std::string overlap_text() const;
     std::int64_t frames() const;
     const State* last() const;                               // null before the first
     static constexpr const char* kFolder = kHandoverFolder;  // of deck and dump, in the run's folder

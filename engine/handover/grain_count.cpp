@@ -36,6 +36,11 @@ GrainCount::Change GrainCount::compare(const State* before, const State& now) co
         if (static_cast<std::int64_t>(now.size()) < wanted)
             throw RunError(fmt::format("{}: step {}: has {}, but the scene begins with {}", file_, now.step,
                                        counted(now.size(), "grain"), wanted));
+        if (static_cast<std::int64_t>(now.size()) > wanted && scene_.feeds.empty())
+            throw RunError(
+                fmt::format("{}: step {}: has {}, but the scene begins with {} and feeds none; is it "
+                            "the dump of another run?",
+                            file_, now.step, counted(now.size(), "grain"), wanted));
         return change;
     }
     std::size_t k = 0;

@@ -23,7 +23,7 @@ class GrainCount {
     };
     // Which grains came and went between two frames that follow each other. before: null for the first frame.
     // Throws RunError where the first frame has too few grains, where a grain is missing that could not
-    // leave, and where grains came in a scene without feeds.
+    // leave, and where grains came, or are too many at first, in a scene without feeds.
     Change compare(const State* before, const State& now) const;
 
   private:

@@ -148,7 +148,8 @@ GuardedProcess::GuardedProcess(const std::vector<std::string>& words, const std:
     const std::string place = folder.string();
     int alive[2] = {-1, -1}, result[2] = {-1, -1};
     const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-    const int into = ::open(output.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    constexpr int kPlain = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;  // neither a link nor a pipe without a reader
+    const int into = ::open(output.c_str(), O_WRONLY | O_CREAT | O_APPEND | kPlain, 0644);
     const bool ready =
         nothing >= 0 && into >= 0 && ::pipe2(alive, O_CLOEXEC) == 0 && ::pipe2(result, O_CLOEXEC) == 0;
     if (ready) {

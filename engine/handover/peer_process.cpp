@@ -16,6 +16,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/base/text.hpp"
 #include "engine/handover/decks.hpp"
@@ -151,7 +152,7 @@ std::string words_of(const std::string& line) {
 // The numbers of a deck's lines by their words. If two lines are the same, the later one counts.
 std::map<std::string, int> lines_of(const fs::path& deck) {
     std::map<std::string, int> lines;
-    std::ifstream file(deck);
+    std::ifstream file = read_plain(deck);
     int number = 1;
     for (std::string line; std::getline(file, line); ++number)
         if (const std::string words = words_of(line); !words.empty()) lines[words] = number;
@@ -168,7 +169,7 @@ std::string cut(const std::string& text) {
 }
 
 bool says(const fs::path& file, const std::string& words) {
-    std::ifstream said(file);
+    std::ifstream said = read_plain(file);
     for (std::string line; std::getline(said, line);)
         if (line.find(words) != std::string::npos) return true;
     return false;
@@ -185,7 +186,7 @@ std::string ended_with(PeerEngine engine, int status, const fs::path& output) {
 
 std::string engine_error(const fs::path& output, const fs::path& deck) {
     const std::map<std::string, int> lines = lines_of(deck);
-    std::ifstream said(output);
+    std::ifstream said = read_plain(output);
     std::string command, last;
     int at = 0;
     for (std::string line; std::getline(said, line);) {
@@ -247,7 +248,7 @@ std::string output_name(PeerEngine engine) {
 
 JobEnd job_end(const fs::path& folder, const HandoverFacts& facts) {
     JobEnd end;
-    std::ifstream said(folder / status_name);
+    std::ifstream said = read_plain(folder / status_name);
     std::string first, second;
     std::getline(said, first);
     std::getline(said, second);
@@ -292,7 +293,7 @@ std::optional<std::int64_t> newest_restart(const fs::path& folder, PeerEngine en
 
 void take_forced_restarts(const fs::path& folder, const fs::path& output) {
     bool whole = false;
-    std::ifstream said(output);
+    std::ifstream said = read_plain(output);
     for (std::string line; !whole && std::getline(said, line);)
         whole = line.find(forced_words) != std::string::npos;
     std::vector<fs::path> forced;

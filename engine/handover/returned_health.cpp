@@ -163,6 +163,7 @@ struct ReturnedHealth::Impl {
     std::vector<Seen> contacts;
     Grains before;  // the grains of the frame before, by rising id
     Account then;
+    DeepestContact deepest;  // of all frames
 };
 
 // Finds the contacts with faces and meshes.
@@ -291,15 +292,22 @@ double ReturnedHealth::look(const State& frame) {
     const auto show = [&](const auto& see) {
         for (const Seen& contact : m.contacts) see(view_of(contact));
     };
-    check_state(m.limits, m.around, grains, show, frame.step);
+    DeepestContact now_deepest = check_state(m.limits, m.around, grains, show, frame.step);
+    const double largest = now_deepest.share;
+    if (largest > m.deepest.share) m.deepest = std::move(now_deepest);
     const Account now = m.account_of(grains, frame);
     m.check_energy(grains, now, frame.step);
     m.before = std::move(grains);
     m.then = now;
-    double largest = 0;
-    for (const Seen& contact : m.contacts)
-        largest = std::max(largest, contact.overlap / contact.smaller_radius);
     return largest;
+}
+
+const DeepestContact& ReturnedHealth::deepest() const {
+    return impl_->deepest;
+}
+
+std::string ReturnedHealth::overlap_text() const {
+    return grainreel::overlap_text(impl_->limits, impl_->deepest);
 }
 
 }  // namespace grainreel

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "engine/measure/deepest_contact.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/grains.hpp"
@@ -25,6 +27,11 @@ class ReturnedHealth {
     // overlaps too far or is too fast for the step, and where the grains gained more energy than walls can
     // give.
     double look(const State& frame);
+
+    // The contact that overlapped most in the frames so far, and a line about it where it overlapped far more
+    // than planned; else empty.
+    const DeepestContact& deepest() const;
+    std::string overlap_text() const;
 
   private:
     struct Impl;

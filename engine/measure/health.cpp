@@ -165,6 +165,14 @@ DeepestContact check_state(const HealthLimits& limits, const Surroundings& aroun
         limits, around, grains, [&](const auto& see) { loop.visit_contacts(step, see); }, step);
 }
 
+std::string advice_against_press(const std::string& pressing_wall) {
+    if (pressing_wall.empty()) return "";
+    return fmt::format(
+        "{} moves on whatever is in its way: let it stop, or turn back, a grain's diameter before "
+        "other walls, or leave fewer grains between",
+        pressing_wall);
+}
+
 namespace {
 
 // Whether a wall goes its own way, whatever is in its way: it turns, follows a path or has a velocity.
@@ -186,19 +194,10 @@ std::string pressing_wall(const Surroundings& around, const ShowContacts& show, 
     return pressing < 0 ? "" : wall_name(around, pressing);
 }
 
-// Empty without a wall.
-std::string advice_against(const std::string& pressing_wall) {
-    if (pressing_wall.empty()) return "";
-    return fmt::format(
-        "{} moves on whatever is in its way: let it stop, or turn back, a grain's diameter before "
-        "other walls, or leave fewer grains between",
-        pressing_wall);
-}
-
 // What may help against the overlap of grain `first` with `second`, which are as in a ContactView.
 std::string remedy_for(const Surroundings& around, const ShowContacts& show, std::int32_t first,
                        std::int32_t second) {
-    const std::string presses = advice_against(pressing_wall(around, show, first, second));
+    const std::string presses = advice_against_press(pressing_wall(around, show, first, second));
     if (!presses.empty()) return presses;
     const std::int32_t mesh = -1 - second - static_cast<std::int32_t>(around.faces.size());
     const std::string stiffness =
@@ -266,7 +265,7 @@ DeepestContact check_state(const HealthLimits& limits, const Surroundings& aroun
             if (distance_at(face, pose, grains.place[i].position).distance > -grains.place[i].radius)
                 continue;
             const auto grain = static_cast<std::int32_t>(i);
-            const std::string presses = advice_against(pressing_wall(around, show, grain, grain));
+            const std::string presses = advice_against_press(pressing_wall(around, show, grain, grain));
             throw RunError(fmt::format(
                 "{}: {} went through the {}; {}", moment(limits.clock, step), grain_name(limits, grains, i),
                 face.name,

@@ -49,6 +49,10 @@ DeepestContact check_state(const HealthLimits& limits, const Surroundings& aroun
 DeepestContact deepest_contact(const HealthLimits& limits, const Surroundings& around, const Grains& grains,
                                const ShowContacts& show, std::int64_t step);
 
+// What helps where a wall of its own motion presses on a grain; `pressing_wall` is as wall_name() gives it.
+// Empty without one.
+std::string advice_against_press(const std::string& pressing_wall);
+
 // "grain 3 (aa) overlaps the floor by 0.3 of the smaller radius at 0.12 s, where ... are planned; remedy",
 // for an overlap above limits.told(); else empty.
 std::string overlap_text(const HealthLimits& limits, const DeepestContact& deepest);

@@ -54,7 +54,7 @@ double share_of_feed(const Scene& scene, const Feed& feed) {
         const Vec3 share = (cell + Vec3(0.5, 0.5, 0.5)) / places;
         inside += in_exit(scene, feed.low + share.cwiseProduct(feed.high - feed.low));
     }
-    return inside / std::pow(places, 3);
+    return inside / static_cast<double>(places * places * places);
 }
 
 std::vector<std::string> feed_warnings(const Scene& scene) {

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/scene/bed.hpp"
@@ -347,6 +349,52 @@ void warn_of_rounding(const Scene& scene, const BedPlan& bed, const Kinds& kinds
     }
 }
 
+// The seams of a round wall: the largest sin^2 of a turn between neighbours that count as one wall, and how
+// many edges turn so far.
+struct Seams {
+    double squared_sine = 0;
+    std::int64_t count = 0;
+};
+Seams seams_of(const Surface& surface) {
+    constexpr double kAlike = 0.8;
+    std::vector<double> all;
+    for (std::int32_t t = 0; t < surface.size(); ++t)
+        for (int edge = 0; edge < 3; ++edge) {
+            const Neighbour& next = surface.neighbour(t, edge);
+            if (next.triangle > t && next.turn == Neighbour::Turn::smooth)
+                all.push_back(surface.normal(t).cross(surface.normal(next.triangle)).squaredNorm());
+        }
+    Seams seams;
+    for (const double one : all) seams.squared_sine = std::max(seams.squared_sine, one);
+    seams.count =
+        std::count_if(all.begin(), all.end(), [&](double one) { return one > kAlike * seams.squared_sine; });
+    return seams;
+}
+
+// A grain that slides over a seam of a round wall meets the next facet with the sine of the turn as its
+// normal velocity.
+void warn_of_facets(const Scene& scene, const Plan& plan, Warnings& warnings) {
+    constexpr double kAlarming = 0.005;
+    constexpr std::int64_t kFew = 12;  // an edge that is rounded off
+    const std::size_t species = scene.species.size();
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const SceneMesh& mesh = scene.meshes[m];
+        if (!mesh.surface.of || plan.mesh.size() < (m + 1) * species) continue;
+        double e = 1;
+        for (std::size_t s = 0; s < species; ++s) e = std::min(e, plan.mesh[m * species + s].restitution);
+        const Seams seams = seams_of(*mesh.surface.of);
+        const double loss = (1 - e * e) * seams.squared_sine;
+        if (!(loss > kAlarming) || seams.count < kFew) continue;
+        const double degrees = math::asin(std::sqrt(seams.squared_sine)) * 180 / std::numbers::pi;
+        warnings.add(
+            fmt::format("mesh[{}].file", m),
+            fmt::format("facets of \"{}\" turn by {:.2g} degrees from one to the next, and a grain that "
+                        "slides across a seam loses (1 - e^2) sin^2 of that, {:.2g} % of its energy of "
+                        "motion; take more facets: twice as many lose a quarter at each",
+                        mesh.name, degrees, 100 * loss));
+    }
+}
+
 }  // namespace
 
 void warn_of_contacts(const Scene& scene, const Plan& plan, const BedPlan& bed, Warnings& warnings) {
@@ -356,6 +404,7 @@ void warn_of_contacts(const Scene& scene, const Plan& plan, const BedPlan& bed, 
     warn_of_softness(bed, kinds, warnings);
     warn_of_long_contacts(bed, kinds, warnings);
     warn_of_rounding(scene, bed, kinds, warnings);
+    warn_of_facets(scene, plan, warnings);
 }
 
 void warn_of_few_steps(const Scene& scene, const Plan& plan, Warnings& warnings) {

@@ -10,6 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/rotation.hpp"
+#include "engine/measure/health.hpp"
 #include "engine/measure/walls/wall_bodies.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/questions/questions.hpp"
@@ -328,21 +329,44 @@ AnswerTable touching_pairs_table(const Snapshot& s) {
 
 }  // namespace
 
+// The name of a wall that goes its own way, whatever is in its way: it turns, follows a path or has a
+// velocity. Empty for all others.
+std::string going_its_way(const Scene& scene, const std::string& name) {
+    for (const SceneMesh& mesh : scene.meshes)
+        if (mesh.name == name && (mesh.turn || !mesh.path_file.empty() || !mesh.velocity.isZero(0)))
+            return '"' + name + '"';
+    for (const ScenePlane& plane : scene.walls)
+        if (plane.name == name && !plane.velocity.isZero(0)) return "the " + name;
+    return "";
+}
+
+// What makes the largest overlap smaller: a wall that presses on one of its grains is stopped, else contacts
+// are made stiffer.
+std::string advice_on_overlap(const Snapshot& s, const DetailedContact& largest) {
+    for (const DetailedContact& one : s.forces->contacts) {
+        if (one.second >= 0 || (one.first != largest.first && one.first != largest.second)) continue;
+        const std::string advice = advice_against_press(going_its_way(s.scene, name_of_body(s, one.second)));
+        if (!advice.empty()) return advice;
+    }
+    return "a larger contact.stiffness or a lower run.overlap makes grains stiffer";
+}
+
 std::string overlap_verdict(const Snapshot& s) {
     const double limit = overlap_limit(s.scene);
-    double most = 0;
-    std::size_t beyond = 0;
-    for (const DetailedContact& one : s.forces->contacts) {
-        const double share = one.overlap / one.smaller_radius;
-        most = std::max(most, share), beyond += share > limit;
-    }
+    const auto share_of = [](const DetailedContact& one) { return one.overlap / one.smaller_radius; };
+    const auto beyond = std::count_if(s.forces->contacts.begin(), s.forces->contacts.end(),
+                                      [&](const DetailedContact& one) { return share_of(one) > limit; });
+    const DetailedContact& largest = *std::max_element(
+        s.forces->contacts.begin(), s.forces->contacts.end(),
+        [&](const DetailedContact& a, const DetailedContact& b) { return share_of(a) < share_of(b); });
+    const double most = share_of(largest);
     if (beyond == 0)
         return fmt::format("within the limit: the largest overlap is {:.3g} of what run.overlap allows",
                            most / limit);
     return fmt::format(
         "beyond the limit: {} of {} that touch overlap more than run.overlap allows, at most {:.3g} times as "
-        "much; a larger contact.stiffness or a lower run.overlap makes grains stiffer",
-        beyond, s.forces->contacts.size(), most / limit);
+        "much; {}",
+        beyond, s.forces->contacts.size(), most / limit, advice_on_overlap(s, largest));
 }
 
 Answer largest_overlap_answer(const Snapshot& s, std::size_t most) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "engine/base/mathematics.hpp"
 
@@ -12,6 +14,29 @@ namespace grainreel {
 Expression::Expression(std::string_view text, const Vocabulary& words) {
     ExpressionParser(text, words, *this).parse();
 }
+
+namespace {
+
+// Values are NaN where they are unknown, and so is what depends on them. Truths are 0, 1 or NaN, with
+// Kleene's three-valued logic: "a or b" is true if one is true, whatever the other is. (S. C. Kleene,
+// Introduction to Metamathematics, 1952, section 64.)
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+template <class Of>
+double known_both(double a, double b, const Of& of) {
+    return std::isnan(a) || std::isnan(b) ? unknown : static_cast<double>(of(a, b));
+}
+
+double opposite(double truth) {
+    return std::isnan(truth) ? unknown : static_cast<double>(truth == 0);
+}
+
+double either(double a, double b) {
+    if (a == 1 || b == 1) return 1;
+    return std::isnan(a) || std::isnan(b) ? unknown : 0;
+}
+
+}  // namespace
 
 double Expression::of(const std::vector<double>& values) const {
     return of(nodes_.size() - 1, values);
@@ -27,21 +52,19 @@ double Expression::of(std::size_t at, const std::vector<double>& values) const {
         case Op::column:
             return values[node.first];
         case Op::either:
-            return first() != 0 || second() != 0;
+            return either(first(), second());
         case Op::both:
-            return first() != 0 && second() != 0;
+            return opposite(either(opposite(first()), opposite(second())));
         case Op::opposite:
-            return first() == 0;
+            return opposite(first());
         case Op::less:
-            return first() < second();
+            return known_both(first(), second(), std::less());
         case Op::less_equal:
-            return first() <= second();
+            return known_both(first(), second(), std::less_equal());
         case Op::equal:
-            return first() == second();
-        case Op::unequal: {
-            const double a = first(), b = second();
-            return a < b || a > b;  // not so for NaN
-        }
+            return known_both(first(), second(), std::equal_to());
+        case Op::unequal:
+            return known_both(first(), second(), std::not_equal_to());
         case Op::plus:
             return first() + second();
         case Op::minus:
@@ -59,9 +82,9 @@ double Expression::of(std::size_t at, const std::vector<double>& values) const {
         case Op::root:
             return std::sqrt(first());
         case Op::least:
-            return std::min(first(), second());
+            return known_both(first(), second(), [](double a, double b) { return std::min(a, b); });
         case Op::most:
-            return std::max(first(), second());
+            return known_both(first(), second(), [](double a, double b) { return std::max(a, b); });
     }
     return 0;
 }

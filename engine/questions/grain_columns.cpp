@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -132,7 +133,8 @@ GrainList grains_where(const Snapshot& snapshot, const Expression& condition) {
     GrainList found;
     for (std::size_t i = 0; i < snapshot.frame.size(); ++i) {
         for (std::size_t k = 0; k < columns.size(); ++k) row[k] = columns[k][i];
-        if (condition.of(row) != 0) found.push_back(i);
+        const double truth = condition.of(row);
+        if (truth != 0 && !std::isnan(truth)) found.push_back(i);
     }
     return found;
 }
@@ -204,7 +206,8 @@ double rotational_energy(const Snapshot& s, std::size_t i) {
 }
 
 double kinetic_energy(const Snapshot& s, std::size_t i) {
-    return 0.5 * s.mass(i) * s.frame.velocity[i].squaredNorm() + rotational_energy(s, i);
+    const double translation = 0.5 * s.mass(i) * s.frame.velocity[i].squaredNorm();
+    return s.spins ? translation + rotational_energy(s, i) : translation;
 }
 
 double potential_energy(const Snapshot& s, std::size_t i) {

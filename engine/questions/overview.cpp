@@ -78,12 +78,17 @@ AnswerTable species_table(const Snapshot& s) {
                 if (static_cast<std::size_t>(s.frame.species[i]) == k) own.push_back(all[i]);
             return own;
         };
-        const auto sum = [](const Statistics& of) { return of.mean * double(of.count); };
+        // The sum of some is not that of all, so that it is unknown if one of them is.
+        const auto sum = [](const std::vector<double>& own) {
+            const Statistics of = statistics_of(own);
+            return of.count == own.size() ? of.mean * double(of.count)
+                                          : std::numeric_limits<double>::quiet_NaN();
+        };
         const Statistics heights = statistics_of(of_species(height));
         table.rows.push_back({s.scene.species[k].name, static_cast<std::int64_t>(heights.count),
-                              sum(statistics_of(of_species(mass))), heights.mean, heights.least, heights.most,
+                              sum(of_species(mass)), heights.mean, heights.least, heights.most,
                               statistics_of(of_species(rise)).mean, statistics_of(of_species(speed)).mean,
-                              sum(statistics_of(of_species(energy)))});
+                              sum(of_species(energy))});
     }
     return table;
 }
@@ -283,15 +288,17 @@ Answer overview_of(const Snapshot& s) {
     if (!s.scene.meshes.empty() || s.scene.container.turn) answer.tables.push_back(bodies_table(s));
     if (AnswerTable walls = walls_table(s); !walls.rows.empty()) answer.tables.push_back(std::move(walls));
     if (s.measured) answer.tables.push_back(measured_table(s, *s.measured));
-    std::size_t out = 0, odd = 0;
+    std::size_t out = 0, no_velocity = 0, no_spin = 0;
     for (std::size_t i = 0; i < s.frame.size(); ++i) {
         out += outside(s, i);
-        odd += !s.frame.position[i].allFinite() || (s.velocities && !s.frame.velocity[i].allFinite());
+        no_velocity += s.velocities && !s.frame.velocity[i].allFinite();
+        no_spin += s.spins && !s.frame.spin[i].allFinite();
     }
     if (out > 0) answer.notes.push_back(fmt::format("outside the container: {}", counted(out, "grain")));
-    if (odd > 0)
-        answer.notes.push_back(
-            fmt::format("with a place or a velocity that is no number: {}", counted(odd, "grain")));
+    for (const auto& [what, count] : {std::pair("velocity", no_velocity), {"spin", no_spin}})
+        if (count > 0)
+            answer.notes.push_back(fmt::format("with a {} that is not known: {}; they are in no mean", what,
+                                               counted(count, "grain")));
     if (!s.contacts)
         answer.notes.emplace_back(
             "contacts of a kept moment are not known; --grain, --wall and --largest-overlap bring it back");

@@ -25,7 +25,8 @@ constexpr std::size_t most_bins = 10000;
 
 struct Bin {
     std::int64_t grains = 0;
-    double speed = 0, upward = 0;  // m/s, sums
+    double speed = 0, upward = 0;  // m/s, sums over the grains whose velocity is known
+    std::int64_t known = 0;        // number of these
     std::vector<double> volume;    // m3, by species
 };
 
@@ -45,11 +46,14 @@ Bins bins_along(const Snapshot& s, const std::vector<double>& at, double low) {
         }
         const auto k = static_cast<std::size_t>(place);
         while (all.bins.size() <= k)
-            all.bins.push_back({0, 0, 0, std::vector<double>(s.scene.species.size(), 0)});
+            all.bins.push_back({0, 0, 0, 0, std::vector<double>(s.scene.species.size(), 0)});
         Bin& bin = all.bins[k];
         ++bin.grains;
-        bin.speed += s.frame.velocity[i].norm();
-        bin.upward += s.frame.velocity[i].z();
+        if (s.frame.velocity[i].allFinite()) {
+            ++bin.known;
+            bin.speed += s.frame.velocity[i].norm();
+            bin.upward += s.frame.velocity[i].z();
+        }
         bin.volume[static_cast<std::size_t>(s.frame.species[i])] +=
             4.0 / 3.0 * std::numbers::pi * math::cube(s.frame.radius[i]);
     }
@@ -65,10 +69,10 @@ AnswerCell ratio(double sum, double of) {
 std::vector<AnswerCell> row_of(const Bins& all, std::size_t k) {
     const Bin& bin = all.bins[k];
     const double edge = all.low + static_cast<double>(k) * all.width;
-    const auto grains = static_cast<double>(bin.grains);
+    const auto known = static_cast<double>(bin.known);
     const double solid = std::accumulate(bin.volume.begin(), bin.volume.end(), 0.0);
-    std::vector<AnswerCell> row = {edge, edge + all.width, bin.grains, ratio(bin.speed, grains),
-                                   ratio(bin.upward, grains)};
+    std::vector<AnswerCell> row = {edge, edge + all.width, bin.grains, ratio(bin.speed, known),
+                                   ratio(bin.upward, known)};
     for (const double volume : bin.volume) row.push_back(ratio(volume, solid));
     row.emplace_back(solid);
     return row;
@@ -82,7 +86,7 @@ void add_bins_of_tops(const Snapshot& s, const std::vector<double>& at, Bins& al
         const double top = (at[i] + s.frame.radius[i] - all.low) / all.width - hair;
         if (top < static_cast<double>(most_bins)) highest = std::max(highest, std::ceil(top));
     }
-    const Bin empty{0, 0, 0, std::vector<double>(s.scene.species.size(), 0)};
+    const Bin empty{0, 0, 0, 0, std::vector<double>(s.scene.species.size(), 0)};
     all.bins.resize(std::max(all.bins.size(), static_cast<std::size_t>(highest)), empty);
 }
 

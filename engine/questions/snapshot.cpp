@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
-#include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -29,12 +27,8 @@ bool Snapshot::has(Needs what) const {
     return true;
 }
 
-double Snapshot::density(std::size_t i) const {
-    return scene.species.at(static_cast<std::size_t>(frame.species[i])).density;
-}
-
 double Snapshot::mass(std::size_t i) const {
-    return density(i) * 4.0 / 3.0 * std::numbers::pi * math::cube(frame.radius[i]);
+    return mass_of(frame, i, scene.species.at(static_cast<std::size_t>(frame.species[i])).density);
 }
 
 double Snapshot::mean_diameter() const {

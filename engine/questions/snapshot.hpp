@@ -48,9 +48,8 @@ struct Snapshot {
     bool velocities = true, spins = true;    // whether they are known; unknown velocities are NaN
 
     bool has(Needs what) const;
-    double density(std::size_t i) const;  // kg/m3, of grain i of the frame
-    double mass(std::size_t i) const;     // kg
-    double mean_diameter() const;         // m, of the grains in the frame
+    double mass(std::size_t i) const;  // kg, of grain i of the frame
+    double mean_diameter() const;      // m, of the grains in the frame
     double bin() const { return bin_width > 0 ? bin_width : mean_diameter(); }  // m
     double height(std::size_t i) const;  // m, of the grain's centre above the floor as it is now
     // Place in the frame of the grain with this id; empty when there is none.

@@ -32,12 +32,13 @@ class Room {
     explicit Room(const Scene& scene)
         : space(scene),
           simple_(scene.meshes.empty() && !scene.start.region),
+          meshes_(scene.meshes),
           place_(scene.where("start")),
-          faces_(container_faces(scene.container, scene.drive)),
+          faces_(faces_of(scene)),
           glued_(glue_grains(scene, faces_)),
           search_(glued_, faces_, period_of_depth(scene.container)) {}
 
-    Vec3 random_centre(double bottom, double top, double margin, Random& random) const {
+    Vec3 random_centre(double bottom, double top, double margin, double radius, Random& random) const {
         const Vec3 &low = space.low(), &high = space.high();
         for (int draws = 1;; ++draws) {
             const double z = random.between(bottom, top);
@@ -46,7 +47,7 @@ class Room {
             const Vec3 centre(random.between(low.x(), high.x()), y, z);
             if (draws % kMostDraws == 0 && !simple_) margin = narrower(margin, draws);
             if (!space.holds(centre, margin)) continue;
-            if (draws > kMostDraws || is_clear(centre, margin)) return centre;
+            if (draws > kMostDraws || (is_clear(centre, margin) && !is_wedged(centre, radius))) return centre;
         }
     }
 
@@ -68,7 +69,31 @@ class Room {
         return clear;
     }
 
-    const bool simple_;        // no mesh and no region: every layer has room
+    // Whether a mesh and a wall that faces it leave less room than a grain's diameter. Radius growth cannot
+    // push a grain out of such a gap, because both walls push against each other.
+    bool is_wedged(const Vec3& centre, double radius) const {
+        constexpr double kFacing = 0.85;  // cosine
+        for (const SceneMesh& mesh : meshes_) {
+            const auto nearest = mesh.surface->nearest(centre, radius);
+            if (!nearest || !(nearest->point.squared > 0)) continue;
+            const double distance = std::sqrt(nearest->point.squared), room = 2 * radius - distance;
+            const Vec3 away = (centre - nearest->point.at) / distance;
+            for (const SceneMesh& other : meshes_) {
+                const auto hit = other.surface->first_hit(centre, away);
+                if (hit && hit->distance < room &&
+                    std::abs(other.surface->normal(hit->triangle).dot(away)) > kFacing)
+                    return true;
+            }
+            for (const Face& face : faces_) {
+                const FaceDistance to = distance_to(face, Vec3::Zero(), centre);
+                if (-to.normal.dot(away) > kFacing && to.distance < room) return true;
+            }
+        }
+        return false;
+    }
+
+    const bool simple_;  // no mesh and no region: every layer has room
+    const std::vector<SceneMesh>& meshes_;
     const std::string place_;  // place in the scene, for messages
     const std::vector<Face> faces_;
     const GluedGrains glued_;
@@ -115,7 +140,7 @@ Grains place_in_layers(const Scene& scene) {
             const double radius = 0.5 * draw_diameter(species.diameter, diameters);
             const double off = scene.meshes.empty() ? 0.25 : 0.5;  // no mesh pushes grains back
             const double margin = std::min(off * radius, 0.25 * (top[s] - bottom[s]));
-            const Vec3 centre = room.random_centre(bottom[s], top[s], margin, centres);
+            const Vec3 centre = room.random_centre(bottom[s], top[s], margin, radius, centres);
             grains.add(id++, static_cast<std::int32_t>(s), centre, radius, species.density);
         }
     }
@@ -129,6 +154,8 @@ constexpr double kFirstShare = 0.5;      // share of the distance to the nearest
 constexpr double kGrowthPerCycle = 0.02;
 constexpr int kStepsPerCycle = 40;
 constexpr std::int64_t kMostCycles = 5000;
+constexpr std::int64_t kPatience =
+    200;                              // cycles after which grains that are stuck at a mesh are put elsewhere
 constexpr double kRestitution = 0.3;  // a plastic contact law lets the crowd come to rest
 
 // The scene's laws, plastic and without friction.
@@ -160,7 +187,8 @@ struct Growing {
     const Scene& scene;
     const Surroundings& around;
     Grains& grains;
-    std::vector<double> wanted;  // m, by id
+    std::vector<double> wanted;            // m, by id
+    std::optional<Random> other_places{};  // for grains that cannot stay where they are
 
     double wanted_of(std::size_t i) const { return wanted[grains.id[i]]; }
     void set_radius(std::size_t i, double r) {
@@ -248,11 +276,70 @@ bool any_lost(const Grains& grains) {
                        [](const Place& place) { return !(place.position.cwiseAbs().maxCoeff() < kFar); });
 }
 
-RunError still_overlap(const Scene& scene, const StepLoop& loop, const GrowthReport& report) {
-    return RunError(
-        fmt::format("{}: the grains still overlap by {:.2g} radii after {} cycles of radius growth; "
-                    "take fewer or smaller grains, or a larger container",
-                    scene.where("species"), largest_overlap(loop), report.cycles));
+// Names the grain that overlaps most, and what it touches. A grain between walls does not get out by growth.
+RunError still_overlap(const Growing& g, const StepLoop& loop, const GrowthReport& report) {
+    std::vector<ContactView> all;
+    loop.visit_contacts(-1, [&](const ContactView& c) { all.push_back(c); });
+    const auto share = [](const ContactView& c) { return c.overlap / c.smaller_radius; };
+    const auto worst = std::max_element(all.begin(), all.end(),
+                                        [&](const auto& a, const auto& b) { return share(a) < share(b); });
+    if (worst == all.end())
+        return RunError(fmt::format("{}: the grains do not grow", g.scene.where("species")));
+    const auto grain = static_cast<std::size_t>(worst->first);
+    std::vector<std::string> walls;
+    for (const ContactView& c : all) {
+        if (c.first != worst->first || c.second >= 0) continue;
+        const std::string name = wall_name(g.around, -1 - c.second);
+        if (std::find(walls.begin(), walls.end(), name) == walls.end()) walls.push_back(name);
+    }
+    const std::string cycles = fmt::format("after {} cycles of radius growth", report.cycles);
+    if (walls.empty())
+        return RunError(
+            fmt::format("{}: the grains still overlap by {:.2g} radii {}; take fewer or smaller grains, "
+                        "or a larger container",
+                        g.scene.where("species"), share(*worst), cycles));
+    return RunError(fmt::format(
+        "{}: grain {} still overlaps {} by {:.2g} radii {}; take start.method = \"rain\", a "
+        "wider gap there, or fewer or smaller grains",
+        g.scene.where("species"), g.grains.id[grain], fmt::join(walls, " and "), share(*worst), cycles));
+}
+
+// The grains that are stuck between a mesh and a wall that faces it, which growth cannot push out; by id.
+std::vector<std::size_t> stuck_grains(const Growing& g, const StepLoop& loop) {
+    constexpr double kPressed = 0.01, kFacing = -0.85;  // of the radius; cosine
+    std::vector<ContactView> at_walls;
+    loop.visit_contacts(-1, [&](const ContactView& c) {
+        if (c.second < 0 && c.overlap > kPressed * c.smaller_radius) at_walls.push_back(c);
+    });
+    const auto is_mesh = [&](const ContactView& c) { return -1 - c.second >= std::ssize(g.around.faces); };
+    std::vector<std::size_t> stuck;
+    for (const ContactView& one : at_walls)
+        if (is_mesh(one) && std::any_of(at_walls.begin(), at_walls.end(), [&](const ContactView& other) {
+                return other.first == one.first && other.normal.dot(one.normal) < kFacing;
+            }))
+            stuck.push_back(static_cast<std::size_t>(one.first));
+    std::sort(stuck.begin(), stuck.end(),
+              [&](std::size_t i, std::size_t j) { return g.grains.id[i] < g.grains.id[j]; });
+    stuck.erase(std::unique(stuck.begin(), stuck.end()), stuck.end());
+    return stuck;
+}
+
+// Puts stuck grains elsewhere in the bed, where they grow again.
+void move_stuck_grains(Growing& g, const StepLoop& loop) {
+    const std::vector<std::size_t> stuck = stuck_grains(g, loop);
+    if (stuck.empty()) return;
+    if (!g.other_places) g.other_places.emplace(g.scene.run.seed + 1, Stream::centres);
+    double volume = 0;
+    for (const Species& s : g.scene.species) volume += solid_volume(s);
+    const Room room(g.scene);
+    const double share = std::min(1.0, volume / kLooseFraction / room.space.volume());
+    const double bottom = room.space.height_of_share(0), top = room.space.height_of_share(share);
+    for (const std::size_t i : stuck) {
+        const double radius = g.wanted_of(i), margin = std::min(0.5 * radius, 0.25 * (top - bottom));
+        g.grains.place[i].position = room.random_centre(bottom, top, margin, radius, *g.other_places);
+        g.grains.motion[i].velocity.setZero();
+        g.set_radius(i, 0.1 * radius);
+    }
 }
 
 // Grows the radii. Small grains are light: with the step of grains of full size they fly apart where they
@@ -265,6 +352,7 @@ std::optional<GrowthReport> grow(Growing& g, const Plan& growth, Team& team, boo
     first_radii(g, g.around.skin);
     StepLoop loop(growth, g.around, grains, team);
     GrowthReport report;
+    std::int64_t grown = 0;  // cycles since all grains have their size
     for (;; ++report.cycles) {
         double smallest_share = 1;
         for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -284,7 +372,12 @@ std::optional<GrowthReport> grow(Growing& g, const Plan& growth, Team& team, boo
         }
         if (any_lost(grains)) return std::nullopt;
         if (smallest_share >= 1 && largest_overlap(loop) < 0.5 * (kInflation - 1)) return report;
-        if (report.cycles > kMostCycles) throw still_overlap(g.scene, loop, report);
+        grown = smallest_share >= 1 ? grown + 1 : 0;
+        if (!g.around.meshes.empty() && grown > kPatience) {
+            grown = 0;
+            move_stuck_grains(g, loop);
+        }
+        if (report.cycles > kMostCycles) throw still_overlap(g, loop, report);
     }
 }
 

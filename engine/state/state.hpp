@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -37,10 +38,12 @@ struct State {
     // The pose of a body. It is the pose at rest if the frame, made by hand, has none.
     BodyPose body(std::size_t number) const { return number < bodies.size() ? bodies[number] : BodyPose(); }
 
-    // One entry per grain, in order of id, in SI units.
+    // One entry per grain, in order of id, in SI units. A velocity or spin of another program's file may be
+    // unknown, also in one component alone; then it is NaN.
     std::vector<std::int32_t> id;
     std::vector<std::int32_t> species;
     std::vector<double> radius;
+    std::vector<double> mass;  // empty where all grains have the density of their species
     std::vector<Vec3> position, velocity, spin;
     std::vector<Quaternion> orientation;  // empty unless the scene asks for it
     std::vector<std::int32_t>
@@ -50,6 +53,13 @@ struct State {
     // The row of the grain with this id; empty where there is no such grain.
     std::optional<std::size_t> row_of(std::int64_t wanted) const { return row_of_id(id, wanted); }
 };
+
+// The mass (kg) of a grain: its own, or that of a sphere with the density (kg/m3) of its species.
+inline double mass_of(const State& frame, std::size_t grain, double density) {
+    if (!frame.mass.empty()) return frame.mass[grain];
+    const double r = frame.radius[grain];
+    return density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
+}
 
 using StatePtr = std::shared_ptr<const State>;
 

@@ -89,6 +89,25 @@ TEST(GrainColours, FollowTheFormulaOfTheQuantity) {
     check(GrainValue::kinetic_energy, 0, 2 * turning, 0.5 * mass / 8 * 0.25, turning);
 }
 
+// A velocity or spin of another program's file may be no number, in one component or in all.
+TEST(GrainColours, AreNeutralWhereTheQuantityIsUnknown) {
+    Shot frame = two_balls();
+    frame.velocity[0].x() = frame.spin[0].y() = std::nan("");
+    for (const GrainValue by : {GrainValue::speed, GrainValue::spin, GrainValue::kinetic_energy}) {
+        GrainColours colours(coloured(by, 0, 1, ""));
+        expect_albedo(colours, frame, 0, neutral_grain);
+        EXPECT_EQ(colours.clipped().above, 0) << static_cast<int>(by);
+    }
+}
+
+// A grain may have a mass of its own.
+TEST(GrainColours, OfKineticEnergyFollowTheOwnMass) {
+    Shot frame = two_balls();
+    frame.mass = {0.4, 0.4};
+    GrainColours colours(coloured(GrainValue::kinetic_energy, 0, 0.1, ""));
+    expect_albedo(colours, frame, 0, colour_of(ColourMap::viridis, 0.5 * 0.4 * 0.25 / 0.1));
+}
+
 // 0.5 m/s lies in the middle of 0.05 to 5 m/s if equal ratios have equal distances. A grain at rest has the
 // colour of the low end.
 TEST(GrainColours, OfALogarithmicScaleFollowRatios) {

@@ -185,6 +185,17 @@ TEST(Amber, AHeaderThatCountsNoFrameIsRefusedWithTheCount) {
     EXPECT_THAT(complaint_of(amber_format(), bytes), HasSubstr("'\\000\\000\\000\\000\\000\\000\\000\\002'"));
 }
 
+TEST(Amber, FramesThatTheHeaderDoesNotCountAreTold) {
+    std::string bytes = Bed(NC_64BIT_OFFSET).bytes();
+    bytes[7] = '\1';
+    EXPECT_THAT(counts(amber_format(), bytes), ElementsAre(grains));
+    EXPECT_THAT(news_of(amber_format(), bytes), tells({"counts 1 frame", "room for 2"}));
+    const std::string whole = Bed(NC_64BIT_OFFSET).bytes();
+    EXPECT_THAT(news_of(amber_format(), whole + std::string(10, 'x')),
+                tells({"10 bytes", "behind its 2 frames"}));
+    EXPECT_EQ(news_of(amber_format(), whole), "");
+}
+
 // The count is that of "streaming": the file has as many frames as there is room for.
 TEST(Amber, AHeaderMayLeaveTheCountOpen) {
     std::string bytes = Bed(NC_64BIT_OFFSET).bytes();

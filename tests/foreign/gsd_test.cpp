@@ -187,12 +187,36 @@ TEST(Gsd, WhatIsLoggedForEachGrainIsAColumnOfEveryFrame) {
     EXPECT_TRUE(std::isnan(column(frame_of(gsd_format(), gsd.bytes(), 2).grains, "log/particles/heat")[0]));
 }
 
+// Of the schema's defaults, a diameter of 1 m, a mass of 1 kg and grains at rest are not believed.
 TEST(Gsd, WhereTheCountIsAnotherTheDefaultHolds) {
     EXPECT_THAT(counts(gsd_format(), bed().bytes()), ElementsAre(2, 2, 3));
     const RawFrame frame = frame_of(gsd_format(), bed().bytes(), 2);
-    EXPECT_THAT(column(frame.grains, "velocity:0"), ElementsAre(0, 0, 0));
+    for (const char* name : {"velocity:0", "diameter"})
+        EXPECT_THAT(column(frame.grains, name),
+                    ElementsAre(testing::IsNan(), testing::IsNan(), testing::IsNan()));
     EXPECT_THAT(column(frame.grains, "orientation:0"), ElementsAre(1, 1, 1));
     EXPECT_THAT(words(frame.grains, "type"), ElementsAre("small", "small", "small"));
+}
+
+TEST(Gsd, AStepThatNoRunReachesIsRefused) {
+    GsdBytes gsd = bed();
+    gsd.chunk(2, "configuration/step", 1, std::vector<std::uint64_t>{std::uint64_t{1} << 63});
+    EXPECT_THAT(complaint_of(gsd_format(), gsd.bytes()), tells({"frame 2", "step", "no run reaches"}));
+}
+
+TEST(Gsd, APlaceFarOutsideOfTheBoxIsRefused) {
+    GsdBytes gsd = bed();
+    gsd.chunk(2, "particles/position", 3, Floats{1, 1, 1, 2, 2, 2, 3, 1e5F, 3});
+    EXPECT_THAT(complaint_of(gsd_format(), gsd.bytes()),
+                tells({"grain 2", "frame 2", "y", "outside of the box"}));
+}
+
+TEST(Gsd, ShapesThatAreNoSpheresAreTold) {
+    GsdBytes gsd = bed();
+    gsd.text(0, "particles/type_shapes",
+             {R"({"type": "Sphere", "diameter": 2})", R"({"type": "ConvexPolyhedron", "vertices": []})"});
+    EXPECT_THAT(news_of(gsd_format(), gsd.bytes()), tells({"no spheres", "ConvexPolyhedron"}));
+    EXPECT_EQ(news_of(gsd_format(), bed().bytes()), "");
 }
 
 TEST(Gsd, WithoutDiametersThereIsNoneUnlessShapesHaveThem) {

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,6 +14,7 @@
 #include "engine/run/import/import_run.hpp"
 #include "tests/cli/small_disk.hpp"
 #include "tests/foreign/dump_files.hpp"
+#include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
@@ -136,6 +139,60 @@ TEST(ImportReads, AWatcherThatStopsItLeavesNothing) {
     request.watcher = [](double done) { return done < 0.5; };
     EXPECT_THROW(import_run(request), RunError);
     EXPECT_FALSE(fs::exists(folder / "run"));
+}
+
+// A dump of pairs of ids, as `dump local` writes it.
+std::string pairs_dump(int step, const std::vector<std::array<int, 2>>& pairs) {
+    std::string text = fmt::format(
+        "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ENTRIES\n{}\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
+        "ITEM: ENTRIES id1 id2 force\n",
+        step, pairs.size());
+    for (const auto& [first, second] : pairs) text += fmt::format("{} {} 1\n", first, second);
+    return text;
+}
+
+std::vector<std::string> news_with_contacts(const std::string& contacts) {
+    const TemporaryFolder folder;
+    // Grains 1 to 10 stand in a row, 10 mm apart, with radii of 4 mm (grain 1) and 4 mm: none of them touch.
+    // So grain 1 gets 20 mm, and touches 2 and 3.
+    write_old_text(folder / "bed.dump", bed_dump(2, 10, [](int) { return 20.0; }));
+    write_old_text(folder / "pairs.dump", contacts);
+    ImportRequest request = request_of(folder / "bed.dump", folder / "run");
+    request.reading.contacts = {(folder / "pairs.dump").string()};
+    return import_run(request).news;
+}
+
+TEST(ImportTells, WhichContactsItLeavesOut) {
+    using test::tells;
+    const std::vector<std::string> all =
+        news_with_contacts(pairs_dump(0, {{1, 2}}) + pairs_dump(10, {{1, 2}}));
+    EXPECT_THAT(all, testing::Not(testing::Contains(HasSubstr("contacts"))));
+    const std::vector<std::string> some =
+        news_with_contacts(pairs_dump(0, {{1, 2}, {1, 77}}) + pairs_dump(10, {{1, 3}, {4, 8}, {-1, -2}}));
+    EXPECT_THAT(some, testing::Contains(tells({"bed.dump", "3 of 5 contacts", "1 with a grain", "1 of grains",
+                                               "1 between walls"})));
+}
+
+TEST(ImportTells, WhichFramesHaveNoContacts) {
+    EXPECT_THAT(news_with_contacts(pairs_dump(10, {{1, 2}})),
+                testing::Contains(test::tells({"pairs.dump", "1 of the 2 frames"})));
+    EXPECT_THAT(news_with_contacts(pairs_dump(7, {{1, 2}})),
+                testing::Contains(test::tells({"pairs.dump", "left out"})));
+}
+
+TEST(ImportTells, ThatABoxChanges) {
+    const TemporaryFolder folder;
+    const std::string names = "id type x y z radius vx vy vz", row = "1 1 0.5 0.5 0.5 0.1 0 0 0\n";
+    std::string text = frame_text("0", "1", names, row);
+    const std::string same = text + frame_text("10", "1", names, row);
+    write_old_text(folder / "bed.dump", same);
+    const auto is_told = testing::Contains(test::tells({"box changes", "at first"}));
+    EXPECT_THAT(import_run(request_of(folder / "bed.dump", folder / "a")).news, testing::Not(is_told));
+    const std::size_t bounds = same.rfind("ITEM: BOX BOUNDS");
+    const std::size_t line = same.find('\n', bounds) + 1;
+    write_old_text(folder / "bed.dump",
+                   same.substr(0, line) + "-0.5 7\n" + same.substr(same.find('\n', line) + 1));
+    EXPECT_THAT(import_run(request_of(folder / "bed.dump", folder / "b")).news, is_told);
 }
 
 }  // namespace

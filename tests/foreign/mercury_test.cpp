@@ -225,6 +225,10 @@ TEST(MercuryRestart, ACutFileIsRefused) {
     EXPECT_THAT(complaint_of(mercury_restart_format(), restart("", 0, 1000000000)), StartsWith("grains:"));
     EXPECT_THAT(complaint_of(mercury_restart_format(), "MercuryDPM 1.0 name a\nxMin 0 xMax 1\n"),
                 HasSubstr("ends before its Particles"));
+    const std::string grain = "BaseParticle position 1 2 3 radius 1\n";
+    EXPECT_THAT(complaint_of(mercury_restart_format(),
+                             "MercuryDPM 1.0\nParticles 1\n" + grain + grain + "Interactions 0\n"),
+                testing::AllOf(StartsWith("grains:4: "), HasSubstr("behind the 1 that")));
     EXPECT_THAT(
         complaint_of(mercury_restart_format(), "MercuryDPM 1.0\nParticles 2\nBaseParticle position 1 2 3\n"),
         HasSubstr("ends 1 grains too early"));

@@ -47,6 +47,8 @@ TEST(GrainCount, ALostGrainIsNamedWithItsStep) {
         EXPECT_THAT(lost.what(), tells({"x.dump", "step 20", "grain 1", "missing"}));
     }
     EXPECT_THROW(count.compare(nullptr, now), RunError);
+    EXPECT_THROW(count.compare(nullptr, with(10, {0, 1, 2, 3}, 0.01)), RunError);
+    count.compare(nullptr, before);
     EXPECT_THROW(count.compare(&before, with(20, {0, 1, 2, 7}, 0.01)), RunError);
     EXPECT_EQ(count.compare(&before, with(20, {0, 1, 2}, 0.01)).left.size(), 0U);
 }

@@ -70,6 +70,14 @@ class ReturnedHealths : public testing::Test {
     std::unique_ptr<ReturnedHealth> health_;
 };
 
+TEST_F(ReturnedHealths, TellTheLargestOverlapOfAllFrames) {
+    use(box("overlap = 0.01\n"));
+    health_->look(frame(0, {{0, 0, 0.05}, {2 * kRadius * (1 - 0.1), 0, 0.05}}));  // 0.2 of a radius
+    health_->look(frame(50, {{0, 0, 0.05}, {2 * kRadius * (1 - 0.05), 0, 0.05}}));
+    EXPECT_EQ(health_->deepest().step, 0);
+    EXPECT_THAT(health_->overlap_text(), tells({"grain 0 (ball)", "grain 1", "0.2 of", "contact.stiffness"}));
+}
+
 TEST_F(ReturnedHealths, OverlapsAreOverTheSmallerRadius) {
     use(box());
     const double apart = 2 * kRadius * (1 - 0.05);  // 0.1 of a radius

@@ -88,6 +88,8 @@ TEST(DamagedMesh, AsciiStl) {
                 tells({":7: ", "fourth corner"}));
     EXPECT_THAT(complaint_of(folder, with("outer", "inner")), tells({":4: ", "\"vertex\"", "\"outer\""}));
     EXPECT_THAT(complaint_of(folder, good.substr(0, good.find("endloop"))), HasSubstr("ends within a facet"));
+    EXPECT_THAT(complaint_of(folder, good.substr(0, good.find("endsolid"))),
+                tells({"ends within a solid", "\"endsolid\""}));
     EXPECT_THAT(complaint_of(folder, "solid\nendsolid\n"), tells({"ASCII STL", "no triangles"}));
     EXPECT_THAT(complaint_of(folder, "Dear Sir,\nplease find enclosed\n"), tells({":1: ", "no mesh"}));
 }

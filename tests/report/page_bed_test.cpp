@@ -148,6 +148,16 @@ TEST(PageBed, SpeedsAreWithinTheStatedError) {
     EXPECT_EQ(speed_byte(0, 0, 0), 0);  // nothing moved at any moment
 }
 
+TEST(BedFrames, ASpeedThatIsNotKnownHasAByteOfItsOwn) {
+    std::vector<State> frames = random_frames(2, 20);
+    frames[1].velocity[4].y() = std::nan("");
+    const PageBed bed = bed_frames(MadeRun(frames), plenty);
+    EXPECT_TRUE(std::isfinite(bed.highest_speed));
+    const auto read = read_back(bed);
+    EXPECT_EQ(read[1].at(frames[1].id[4]).speed, kUnknownSpeed);
+    EXPECT_LT(read[0].at(frames[0].id[4]).speed, kUnknownSpeed);
+}
+
 // The scale of all moments follows the fastest grain of all, which is in the first moment here.
 TEST(PageBed, SpeedsAreByTheFastestGrainOfAllMoments) {
     std::vector<State> frames = random_frames(3, 20);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/mesh/room.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -426,6 +427,32 @@ TEST_F(MeshScene, TellsWhatWasMended) {
     files.write("plate.stl", twice);
     ASSERT_EQ(files.read(ball_on_plate).notes.size(), 1u);
     EXPECT_THAT(files.read(ball_on_plate).notes[0], HasSubstr("scene.toml:12:1: mesh \"plate\": "));
+}
+
+// A seam costs (1 - e^2) sin^2 of its turn.
+TEST_F(MeshScene, TellsWhatSeamsOfARoundWallCost) {
+    const auto warning = [&](int facets, double e) {
+        MeshByHand pipe;
+        const auto corner = [&](int k, double x) {
+            return Vec3(x, 0.05 * std::cos(2 * pi * k / facets), 0.05 * std::sin(2 * pi * k / facets));
+        };
+        for (int k = 0; k < facets; ++k)
+            add_quad(pipe, corner(k, -0.02), corner(k, 0.02), corner(k + 1, 0.02), corner(k + 1, -0.02));
+        files.write("plate.stl", pipe);
+        const Scene scene = files.read(
+            std::string(ball_on_plate) +
+            fmt::format("[[contact.pair]]\nbetween = [\"ball\", \"plate\"]\nrestitution = {}\n", e));
+        for (const std::string& line : make_plan(scene).warnings)
+            if (line.find("seam") != std::string::npos) return line;
+        return std::string();
+    };
+    const double sine = std::sin(2 * pi / 36);
+    EXPECT_THAT(warning(36, 0.5), tells({"file", "\"plate\"", "10 degrees",
+                                         fmt::format("{:.2g} %", 75 * sine * sine), "more facets"}));
+    EXPECT_EQ(warning(36, 0.95), "");  // 0.3 %
+    EXPECT_NE(warning(72, 0.5), "");   // 0.57 %
+    EXPECT_EQ(warning(72, 0.6), "");   // 0.49 %
+    EXPECT_EQ(warning(8, 0.5), "");    // eight walls that meet at edges
 }
 
 }  // namespace

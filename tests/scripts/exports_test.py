@@ -138,8 +138,10 @@ def look_with_mdanalysis(folder, grains):
 def run_script_of_blender(folder, parts, new):
     """Runs bed.py with a stand-in for Blender whose node trees have these parts alone. Returns the tree."""
     tree = unittest.mock.MagicMock(spec_set=parts)
+    tree.nodes.new.return_value.outputs.__iter__.side_effect = lambda: iter([unittest.mock.MagicMock()])
     bpy = unittest.mock.MagicMock()
     bpy.data.node_groups.new.return_value = tree
+    bpy.context.scene.frame_current = 0
     vectors = unittest.mock.MagicMock()
     with unittest.mock.patch.dict(sys.modules, {"bpy": bpy, "mathutils": vectors}), unittest.mock.patch.object(sys, "argv", ["blender"]):
         script = folder / "r-blender/bed.py"

@@ -3,8 +3,8 @@
 
 usage: names_exist.py GRAINREEL
 
-Options: each `--word` in docs/, README.md and CONTRIBUTING.md, in the program's own help, and in messages of engine/ and
-render/. Where a command line names its program, the option must be one of that program: of the verb for `grainreel render`,
+Options: each `--word` in docs/, README.md and CONTRIBUTING.md, in the scenes, in the program's own help, and in
+messages of engine/ and render/. Where a command line names its program, the option must be one of that program: of the verb for `grainreel render`,
 of a script for `python3 tests/x.py`. The options of other people's programs are not checked. An option without a command must
 be one of some verb or some script of ours.
 Keys: each `table.key` of a table of scene files, in code of the documentation and in the program's help.
@@ -141,6 +141,15 @@ def faults_of_messages(names):
                         yield f"{file.relative_to(ROOT)}:{number}: no verb has {option}"
 
 
+def faults_of_scenes(names):
+    """Options that comments of the shipped scenes and studies name."""
+    for file in sorted(ROOT.glob("scenes/**/*.toml")):
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            for option in OPTION.findall(line):
+                if option not in names.any:
+                    yield f"{file.relative_to(ROOT)}:{number}: no verb has {option}"
+
+
 def faults_of_tests():
     """Tests that docs/reliability.md names, and paths of scripts."""
     text = (ROOT / "docs/reliability.md").read_text()
@@ -174,7 +183,7 @@ def faults_of_tests():
 
 def main():
     names = Names(sys.argv[1])
-    faults = list(faults_of_messages(names)) + list(faults_of_tests())
+    faults = [*faults_of_messages(names), *faults_of_scenes(names), *faults_of_tests()]
     for file in documents():
         text = file.read_text()
         place = str(file.relative_to(ROOT))

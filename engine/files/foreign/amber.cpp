@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/word_reader.hpp"
@@ -86,6 +87,10 @@ class AmberFile : public RawFile {
     void add_variable(const std::string& name);
     const AmberVariable* find(const std::string& name) const;
     const AmberVariable& places() const { return variables_[places_]; }
+    // "x", or "xu" for places that go on outside of a periodic box.
+    std::string place_name(std::size_t axis) const {
+        return std::string(1, "xyz"[axis]) + (places().name == "unwrapped_coordinates" ? "u" : "");
+    }
     [[noreturn]] void refuse_without_frames() const;
     [[noreturn]] void refuse_as_not_amber(const char* what) const;
     // The numbers of the first `grains` grains in a frame, as in the file and not scaled.
@@ -95,6 +100,7 @@ class AmberFile : public RawFile {
     std::optional<std::array<double, 3>> triple(const char* name, std::size_t frame) const;
     std::optional<WorldCell> box_of(std::size_t frame) const;
     void add_columns(RawTable& grains, const AmberVariable& variable, std::size_t frame) const;
+    void tell_of_length();
     void find_units();
     bool too_dense_for_atoms() const;
 
@@ -125,6 +131,7 @@ AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), netcdf_(N
             fmt::format("{}: is cut off after {} of {} frames; the last frame that is not whole is left "
                         "out",
                         file.string(), frames_, declared_));
+    tell_of_length();
     for (std::size_t frame = 0; frame < frames_; ++frame) {
         RawMoment moment;
         moment.grains = static_cast<std::int64_t>(grains_of(frame));
@@ -220,6 +227,25 @@ std::vector<double> AmberFile::numbers(const AmberVariable& variable, std::size_
     return values;
 }
 
+// Tells of what lies behind the frames that the header counts.
+void AmberFile::tell_of_length() {
+    if (!netcdf_.has_dimension("frame") || !netcdf_.has_records()) return;
+    const std::size_t there = netcdf_.whole_records();
+    if (there > declared_)
+        news_.push_back(
+            fmt::format("{}: its header counts {}, and there is room for {}; those behind are left "
+                        "out. Was it still "
+                        "being written, or is it damaged?",
+                        file_.string(), counted(declared_, "frame"), there));
+    constexpr std::uint64_t padding = 4;  // bytes
+    const std::uint64_t behind = netcdf_.bytes_behind_records();
+    if (there == declared_ && behind >= padding)
+        news_.push_back(
+            fmt::format("{}: {} bytes lie behind its {} and belong to none; was another frame being "
+                        "written, or is it damaged?",
+                        file_.string(), behind, counted(declared_, "frame")));
+}
+
 // Programs count a frame in the header only when it is whole, and a program that was stopped may not have
 // counted any.
 void AmberFile::refuse_without_frames() const {
@@ -299,7 +325,7 @@ void AmberFile::add_columns(RawTable& grains, const AmberVariable& variable, std
     const std::vector<double> values = numbers(variable, frame, grains.rows);
     for (std::size_t k = 0; k < variable.components; ++k) {
         std::string name = variable.name;
-        if (is_place) name = std::string(1, "xyz"[k]);
+        if (is_place) name = place_name(k);
         if (!is_place && !variable.single) name = fmt::format("{}:{}", variable.name, k);
         RawColumn column{name, {}, {}};
         column.values.reserve(grains.rows);
@@ -317,8 +343,8 @@ bool AmberFile::too_dense_for_atoms() const {
     const RawFrame frame = frame_at(0);
     double size = 1;
     int ways = 0;
-    for (const char* name : {"x", "y", "z"}) {
-        const RawColumn* column = frame.grains.find(name);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const RawColumn* column = frame.grains.find(place_name(axis));
         if (!column || column->values.empty()) continue;
         double least = column->values[0], most = least;
         for (const double value : column->values) {

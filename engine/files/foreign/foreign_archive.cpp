@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/base/error.hpp"
+#include "engine/files/damage.hpp"
 #include "engine/files/foreign/names.hpp"
 
 namespace grainreel {
@@ -98,6 +99,7 @@ void ForeignArchive::list_moments() {
         raw_steps_.push_back(stepped ? *raw[k].step : static_cast<std::int64_t>(k));
     }
     world_.time_known = timed || options_.time_step.has_value();
+    check_clock(timed ? times : std::vector<double>());
     if (options_.time_step && !timed) check_time_step(*options_.time_step, times);
     if (options_.time_step && timed)
         news_.push_back(
@@ -147,6 +149,20 @@ void ForeignArchive::list_moments() {
         if (moments_[k].time < moments_[k - 1].time)
             throw UserError(fmt::format("{}: its time falls from {:.6g} to {:.6g} s; is it of two runs?",
                                         grains_->place(k), moments_[k - 1].time, moments_[k].time));
+}
+
+// Refuses steps and times (s) that no run reaches, because a damaged file has them.
+void ForeignArchive::check_clock(const std::vector<double>& times) const {
+    constexpr std::int64_t most_steps = 9'000'000'000'000'000;  // whole numbers that a double holds
+    for (std::size_t k = 0; k < raw_steps_.size(); ++k)
+        if (raw_steps_[k] <= -most_steps || raw_steps_[k] >= most_steps)
+            throw UserError(fmt::format("{}: has the step {}, which no run reaches; is the file damaged?",
+                                        grains_->place(k), raw_steps_[k]));
+    for (std::size_t k = 0; k < times.size(); ++k)
+        if (!(std::abs(times[k]) <= kLongestTime))
+            throw UserError(
+                fmt::format("{}: has the time {:.6g} s, which no run reaches; is the file damaged?",
+                            grains_->place(k), times[k]));
 }
 
 const RawFrame& ForeignArchive::raw(std::size_t index) const {
@@ -311,7 +327,8 @@ void ForeignArchive::make_species() {
     if (!moments_.empty() && types_.words().size() > 0) {
         const RawFrame& frame = raw(first);
         const std::vector<double> densities = meaning_->densities(frame, types_);
-        const State grains = meaning_->frame(frame, types_, grains_->place(first));
+        Gaps ignored;
+        const State grains = meaning_->frame(frame, types_, grains_->place(first), ignored);
         std::vector<double> sums(types_.words().size(), 0);
         for (std::size_t i = 0; i < grains.size(); ++i) {
             const auto species = static_cast<std::size_t>(grains.species[i]);
@@ -344,7 +361,11 @@ std::optional<std::int64_t> ForeignArchive::written_step(std::size_t index) cons
 }
 
 State ForeignArchive::read(std::size_t index) const {
-    State frame = meaning_->frame(raw(index), types_, grains_->place(index));
+    Gaps gaps;
+    State frame = meaning_->frame(raw(index), types_, grains_->place(index), gaps);
+    keep_gaps(index, gaps);
+    for (std::size_t i = 0; i < frame.mass.size(); ++i)
+        if (std::isnan(frame.mass[i])) frame.mass[i] = usual_mass(frame, i);
     const State& moment = moments_.at(index);
     frame.step = moment.step;
     frame.time = moment.time;
@@ -352,9 +373,27 @@ State ForeignArchive::read(std::size_t index) const {
     return frame;
 }
 
+// The mass of a grain with the density of its species.
+double ForeignArchive::usual_mass(const State& frame, std::size_t grain) const {
+    const double density = world_.species.at(static_cast<std::size_t>(frame.species[grain])).density;
+    State sphere;
+    sphere.radius = {frame.radius[grain]};
+    return mass_of(sphere, 0, std::isfinite(density) ? density : kGlassDensity);
+}
+
+void ForeignArchive::keep_gaps(std::size_t index, const Gaps& gaps) const {
+    if (gaps.any()) gaps_[index] = gaps;
+}
+
 State ForeignArchive::grains(std::size_t index) const {
     State frame = read(index);
-    if (derived_) derive_velocities(index, frame);
+    if (!derived_) return frame;
+    derive_velocities(index, frame);
+    Gaps gaps;
+    if (const auto known = gaps_.find(index); known != gaps_.end()) gaps = known->second;
+    gaps.velocities = std::count_if(frame.velocity.begin(), frame.velocity.end(),
+                                    [](const Vec3& velocity) { return velocity.hasNaN(); });
+    keep_gaps(index, gaps);
     return frame;
 }
 
@@ -381,10 +420,21 @@ std::optional<std::vector<Link>> ForeignArchive::touches(std::size_t index) cons
     return read(contacts_->read(found), contacts_->place(found));
 }
 
+std::vector<std::string> ForeignArchive::news_of_frames() const {
+    Gaps all;
+    std::string first;  // where the first grain is
+    for (const auto& [index, gaps] : gaps_) {
+        if (all.first < 0 && gaps.first >= 0) first = grains_->place(index);
+        all.add(gaps);
+    }
+    return all.words(path_.string(), first);
+}
+
 StateSupply ForeignArchive::supply() const {
     StateSupply supply;
     supply.velocities = meaning_->has_velocities() || derived_;
     supply.spins = meaning_->has_spins();
+    supply.masses = meaning_->has_masses();
     supply.orientations = meaning_->has_orientations();
     supply.contacts = has_contacts_;
     return supply;
@@ -459,7 +509,8 @@ void ForeignArchive::derive_velocities(std::size_t index, State& frame) const {
             ways += way(frame.position[i], after.position[*will], box);
             time += after.time - frame.time;
         }
-        if (time > 0 && ways.norm() < 4 * frame.radius[i]) frame.velocity[i] = ways / time;
+        const bool known = time > 0 && ways.norm() < 4 * frame.radius[i];
+        frame.velocity[i] = known ? Vec3(ways / time) : Vec3::Constant(kUnknown);
     }
 }
 

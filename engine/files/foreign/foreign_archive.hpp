@@ -83,6 +83,7 @@ class ForeignArchive final : public StateArchive {
     std::optional<WorldCell> cell(std::size_t index) const override { return meaning_->cell(raw(index)); }
     std::optional<std::int64_t> written_step(std::size_t index) const override;
     std::vector<std::string> news() const override { return news_; }
+    std::vector<std::string> news_of_frames() const override;
 
     // Looks for moments that were written since. Returns whether there is anything new; then the walls may be
     // others, and where steps and times depend on all moments, these too. Throws as RawSeries::grow() does.
@@ -125,6 +126,7 @@ class ForeignArchive final : public StateArchive {
     std::vector<std::filesystem::path> files_now(const std::vector<std::filesystem::path>& known) const;
     bool in_frames() const;
     void list_moments();
+    void check_clock(const std::vector<double>& times) const;
     void survey();
     std::vector<std::size_t> looks() const;
     bool look_at(std::size_t index);
@@ -140,6 +142,8 @@ class ForeignArchive final : public StateArchive {
     static void rest_at_first(MovingWall& wall, std::size_t first);
     void decide_velocities();
     State read(std::size_t index) const;
+    double usual_mass(const State& frame, std::size_t grain) const;
+    void keep_gaps(std::size_t index, const Gaps& gaps) const;
     void derive_velocities(std::size_t index, State& frame) const;
 
     std::filesystem::path path_;
@@ -162,6 +166,7 @@ class ForeignArchive final : public StateArchive {
     bool behind_ = false;  // whether the files have grown and this object has not
     std::size_t first_with_grains_ = 0;
     std::vector<std::string> news_;
+    mutable std::map<std::size_t, Gaps> gaps_;  // by the number of the frame; only where there are some
     mutable std::size_t contacts_passed_over_ = 0;
     // The frames that were read last, with their numbers: one, or three in a row where velocities come from
     // the frames beside each. Frame k is in slot k modulo their number.

@@ -11,6 +11,9 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/base/error.hpp"
+#include "engine/files/damage.hpp"
+
 namespace grainreel {
 
 namespace {
@@ -114,6 +117,19 @@ MovingWall follow(const std::vector<WallMoment>& moments, std::size_t wall,
     return moving;
 }
 
+// Refuses corners of walls that are farther than a bed can reach, because a damaged file has them.
+void check_corners(const std::vector<WallMoment>& moments, double unit, const std::string& name) {
+    for (const WallMoment& moment : moments)
+        for (const RawWall& wall : moment.walls)
+            for (const Vec3& corner : wall.mesh.vertices)
+                if (!(corner.cwiseAbs().maxCoeff() * unit <= kFarthestPlace))
+                    throw UserError(
+                        fmt::format("{}: a wall has a corner at ({:.3g}, {:.3g}, {:.3g}) m, where no wall "
+                                    "is; is the file "
+                                    "damaged, or is its unit another (--walls-scale)?",
+                                    name, unit * corner.x(), unit * corner.y(), unit * corner.z()));
+}
+
 }  // namespace
 
 RigidMotion rigid_motion(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
@@ -141,6 +157,7 @@ std::vector<MovingWall> follow_walls(const std::vector<WallMoment>& moments, dou
                                      const std::string& name, std::vector<std::string>& news) {
     std::vector<MovingWall> all;
     if (moments.empty()) return all;
+    check_corners(moments, unit, name);
     bool changes = false;
     for (std::size_t wall = 0; wall < moments.front().walls.size(); ++wall) {
         const RawWall& first = moments.front().walls[wall];

@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <numeric>
 
 #include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
+#include "engine/files/foreign/grain_shapes.hpp"
 #include "engine/files/foreign/names.hpp"
 
 namespace grainreel {
@@ -19,7 +17,6 @@ namespace grainreel {
 namespace {
 
 constexpr const char* kAxes = "xyz";
-constexpr double kMostId = 2147483646;  // ids have 32 bits in a State
 
 UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const std::string& file) {
     const std::string& name = options.units.empty() ? facts.units : options.units;
@@ -121,15 +118,61 @@ GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const R
     }
     spin_ = {find("wx"), find("wy"), find("wz")};
     quaternion_ = {find("qw"), find("qx"), find("qy"), find("qz")};
-    for (const auto& column :
-         {place_[0], place_[1], place_[2], radius_, velocity_[0], velocity_[1], velocity_[2]})
+    refuse_words(table);
+    tell_of_unwrapped(frame);
+    tell_of_shapes(table);
+    if (!units_.real)
+        guesses_.push_back(fmt::format("{}: has units lj; one unit of length is drawn as 1 m", file_));
+}
+
+void GrainMeaning::refuse_words(const RawTable& table) const {
+    std::vector<Column> columns{radius_, density_, mass_};
+    for (const auto& three : {place_, velocity_, spin_})
+        columns.insert(columns.end(), three.begin(), three.end());
+    columns.insert(columns.end(), quaternion_.begin(), quaternion_.end());
+    for (const Column& column : columns)
         if (column && !table.columns[*column].words.empty())
             throw UserError(
                 fmt::format("{}: column {} holds words such as \"{}\", where numbers are needed; name "
                             "another column by --columns",
                             file_, table.columns[*column].name, table.columns[*column].words.front()));
-    if (!units_.real)
-        guesses_.push_back(fmt::format("{}: has units lj; one unit of length is drawn as 1 m", file_));
+    if (!id_) return;
+    // Names of grains may be words. A word among numbers is damage, and would give all grains other ids.
+    const std::vector<std::string>& words = table.columns[*id_].words;
+    const auto is_number = [](const std::string& word) { return number_in(word).has_value(); };
+    const auto word = std::find_if_not(words.begin(), words.end(), is_number);
+    if (word != words.end() && std::any_of(words.begin(), words.end(), is_number))
+        throw UserError(
+            fmt::format("{}: column {} holds the word \"{}\" among numbers; name another column "
+                        "of ids by --columns id=NAME, or write its number",
+                        file_, table.columns[*id_].name, excerpt(*word)));
+}
+
+// Places of LAMMPS' columns xu, yu and zu are moved back into the periodic box, where x, y and z would have
+// them.
+void GrainMeaning::tell_of_unwrapped(const RawFrame& frame) {
+    std::string names;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        unwrapped_[axis] = unwrapped_[axis] && frame.box && frame.box->periodic[axis];
+        if (!unwrapped_[axis]) continue;
+        names += fmt::format("{}{}={}", names.empty() ? "" : ",", kAxes[axis], names_[*place_[axis]]);
+    }
+    if (names.empty()) return;
+    guesses_.push_back(
+        fmt::format("{}: its places go on outside of its periodic box; they are shown inside of it, and "
+                    "--columns {} leaves them where they are",
+                    file_, names));
+}
+
+void GrainMeaning::tell_of_shapes(const RawTable& table) {
+    const std::vector<std::string> names = columns_of_other_shapes(table);
+    if (names.empty()) return;
+    const std::string size = radius_ ? fmt::format("the {} in its column {}",
+                                                   is_diameter_ ? "diameter" : "radius", names_[*radius_])
+                                     : std::string("the radius of --radius");
+    guesses_.push_back(
+        fmt::format("{}: has grains that are no spheres ({}); they are drawn and measured as spheres with {}",
+                    file_, fmt::join(names, ", "), size));
 }
 
 std::optional<double> GrainMeaning::unit_in_name(Column column, Dimension dimension) {
@@ -155,6 +198,7 @@ void GrainMeaning::find_places(const RawTable& table) {
             if (place_[axis]) break;
             place_[axis] = column_for(letter + suffix, table, options_, file_);
             scaled_[axis] = scaled;
+            unwrapped_[axis] = place_[axis] && std::string_view(suffix).ends_with('u');
         }
     }
     flat_ = place_[0] && place_[1] && !place_[2];
@@ -200,57 +244,6 @@ void GrainMeaning::find_radius(const RawTable& table) {
     radius_unit_ = unit_in_name(radius_, Dimension::length).value_or(place_unit_);
 }
 
-Vec3 GrainMeaning::place_of(const RawFrame& raw, std::size_t row) const {
-    Vec3 place(0, 0, 0), share(0, 0, 0);
-    bool any_scaled = false;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!place_[axis]) continue;
-        const double number = value(raw.grains, place_[axis], row);
-        (scaled_[axis] ? share : place)[static_cast<Eigen::Index>(axis)] = number;
-        any_scaled = any_scaled || scaled_[axis];
-    }
-    if (any_scaled) {
-        if (!raw.box) throw UserError(fmt::format("{}: has places as shares of a box, but no box", file_));
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<Eigen::Index>(axis);
-            if (!scaled_[axis]) continue;
-            // A fraction is multiplied by the whole edge; a coordinate that is a length stays as it is.
-            const Vec3 along = share[a] * raw.box->edges[axis];
-            place[a] += raw.box->origin[a];
-            for (std::size_t other = 0; other < 3; ++other)
-                if (scaled_[other])
-                    place[static_cast<Eigen::Index>(other)] += along[static_cast<Eigen::Index>(other)];
-        }
-    }
-    return place * place_unit_;
-}
-
-double GrainMeaning::radius_of(const RawFrame& raw, std::size_t row, const std::string& place) const {
-    if (radius_) {
-        const double number = value(raw.grains, radius_, row) * radius_unit_ * (is_diameter_ ? 0.5 : 1);
-        if (number > 0 && std::isfinite(number)) return number;
-        throw UserError(fmt::format(
-            "{}: a grain in row {} has {} {}; give the radius by --radius 2mm, or name another column by "
-            "--columns "
-            "radius=NAME",
-            place, row + 1, is_diameter_ ? "a diameter of" : "a radius of", value(raw.grains, radius_, row)));
-    }
-    if (!options_.radius_of_type.empty()) {
-        const std::string word = type_of(raw, row);
-        const auto found = options_.radius_of_type.find(word);
-        if (found != options_.radius_of_type.end()) return found->second;
-        if (!options_.radius)
-            throw UserError(fmt::format(
-                "{}: a grain is of type {}, for which --radius says nothing; add {}=2mm", place, word, word));
-    }
-    return *options_.radius;
-}
-
-std::string GrainMeaning::type_of(const RawFrame& raw, std::size_t row) const {
-    if (!type_) return "1";
-    return type_word(raw.grains.columns[*type_], value(raw.grains, type_, row));
-}
-
 // The columns are known by their places, so these must not change from frame to frame.
 void GrainMeaning::check_columns(const RawTable& table, const std::string& place) const {
     if (table.rows == 0) return;
@@ -266,13 +259,13 @@ void GrainMeaning::add_types(const RawFrame& raw, TypeList& types) const {
         types.add("1");
         return;
     }
-    // Neighbouring rows often have the same type, so the word is made only where the type changes.
-    double last = std::numeric_limits<double>::quiet_NaN();
+    // Making the word of a type takes long, so that it is made once.
+    std::vector<double> known;
     constexpr std::size_t most = 1000;
     for (std::size_t row = 0; row < raw.grains.rows; ++row) {
         const double number = value(raw.grains, type_, row);
-        if (number == last) continue;
-        last = number;
+        if (std::find(known.begin(), known.end(), number) != known.end()) continue;
+        known.push_back(number);
         types.add(type_of(raw, row));
         if (types.words().size() > most)
             throw UserError(
@@ -294,123 +287,6 @@ std::optional<WorldCell> GrainMeaning::cell(const RawFrame& raw) const {
     cell.origin *= units_.length;
     for (Vec3& edge : cell.edges) edge *= units_.length;
     return cell;
-}
-
-namespace {
-
-std::vector<std::size_t> by_rising(const std::vector<std::int32_t>& ids) {
-    std::vector<std::size_t> order(ids.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    if (!std::is_sorted(ids.begin(), ids.end()))
-        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
-    return order;
-}
-
-}  // namespace
-
-State GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std::string& place) const {
-    const RawTable& table = raw.grains;
-    check_columns(table, place);
-    std::vector<std::int32_t> ids(table.rows);
-    for (std::size_t row = 0; row < table.rows; ++row) {
-        const double number = id_ ? value(table, id_, row) : static_cast<double>(row) + facts_.first_row_id;
-        if (!(number >= 0 && number <= kMostId && number == std::floor(number)))
-            throw UserError(fmt::format("{}: row {} has the id {}, which is no whole number from 0 to {:.0f}",
-                                        place, row + 1, number, kMostId));
-        ids[row] = static_cast<std::int32_t>(number);
-    }
-    const std::vector<std::size_t> order = by_rising(ids);
-    State frame;
-    std::optional<std::size_t> species;
-    double last_type = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const std::size_t row = order[i];
-        if (i > 0 && ids[order[i - 1]] == ids[row])
-            throw UserError(
-                fmt::format("{}: grain {} comes twice; a grain has one row in each frame", place, ids[row]));
-        // Neighbouring rows often have the same type, so the word is made only where the type changes.
-        const double type = type_ ? value(table, type_, row) : 0;
-        if (!species || type != last_type) {
-            species = types.place(type_of(raw, row));
-            last_type = type;
-        }
-        if (!species)
-            throw UserError(
-                fmt::format("{}: grain {} is of type {}, which no frame that was looked at first had; name "
-                            "all types by --species",
-                            place, ids[row], type_of(raw, row)));
-        const Vec3 where = place_of(raw, row);
-        if (!where.allFinite())
-            throw UserError(fmt::format("{}: grain {} has no finite place", place, ids[row]));
-        frame.id.push_back(ids[row]);
-        frame.species.push_back(static_cast<std::int32_t>(*species));
-        frame.radius.push_back(radius_of(raw, row, place));
-        frame.position.push_back(where);
-        Vec3 velocity(0, 0, 0), spin(0, 0, 0);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<Eigen::Index>(axis);
-            if (velocity_[axis]) velocity[a] = value(table, velocity_[axis], row) * velocity_unit_[axis];
-            if (spin_[axis]) spin[a] = value(table, spin_[axis], row) / units_.time;
-        }
-        frame.velocity.push_back(velocity.allFinite() ? velocity : Vec3(0, 0, 0));
-        frame.spin.push_back(spin.allFinite() ? spin : Vec3(0, 0, 0));
-        if (has_orientations()) {
-            Quaternion turned(value(table, quaternion_[0], row), value(table, quaternion_[1], row),
-                              value(table, quaternion_[2], row), value(table, quaternion_[3], row));
-            const double size = turned.norm();
-            frame.orientation.push_back(size > 0 && std::isfinite(size) ? turned.normalized()
-                                                                        : Quaternion::Identity());
-        }
-    }
-    return frame;
-}
-
-std::vector<double> GrainMeaning::densities(const RawFrame& raw, const TypeList& types) const {
-    const std::size_t count = types.words().size();
-    std::vector<double> sums(count, 0), grains(count, 0);
-    if (options_.density) return std::vector<double>(count, *options_.density);
-    if (!density_ && !mass_) return std::vector<double>(count, kUnknown);
-    for (std::size_t row = 0; row < raw.grains.rows; ++row) {
-        const std::optional<std::size_t> species = types.place(type_of(raw, row));
-        if (!species) continue;
-        const double radius = radius_of(raw, row, file_);
-        const double volume = 4.0 / 3 * std::numbers::pi * radius * radius * radius;
-        const double density = density_ ? value(raw.grains, density_, row) * units_.density()
-                                        : value(raw.grains, mass_, row) * units_.mass / volume;
-        if (!(density > 0) || !std::isfinite(density)) continue;
-        sums[*species] += density;
-        ++grains[*species];
-    }
-    for (std::size_t s = 0; s < count; ++s) sums[s] = grains[s] > 0 ? sums[s] / grains[s] : kUnknown;
-    return sums;
-}
-
-std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOptions& options,
-                                            const UnitSystem& units, const std::string& file) {
-    const RawTable& table = raw.contacts;
-    const auto first = column_for("id1", table, options, file),
-               second = column_for("id2", table, options, file);
-    if (!first || !second) return std::nullopt;
-    const auto normal = column_for("force", table, options, file);
-    const auto fx = column_for("fx", table, options, file), fy = column_for("fy", table, options, file),
-               fz = column_for("fz", table, options, file);
-    const auto at = [&](std::size_t column, std::size_t row) { return table.columns[column].values[row]; };
-    std::vector<Link> touches;
-    for (std::size_t row = 0; row < table.rows; ++row) {
-        Link touch{};
-        const double a = at(*first, row), b = at(*second, row);
-        if (!(std::abs(a) <= kMostId && std::abs(b) <= kMostId)) continue;
-        touch.first = static_cast<std::int32_t>(a);
-        touch.second = static_cast<std::int32_t>(b);
-        if (touch.first < 0) std::swap(touch.first, touch.second);
-        if (touch.first < 0) continue;  // a contact of two walls
-        if (normal)
-            touch.force = std::abs(at(*normal, row)) * units.force();
-        else if (fx && fy && fz)
-            touch.force = Vec3(at(*fx, row), at(*fy, row), at(*fz, row)).norm() * units.force();
-        if (std::isfinite(touch.force)) touches.push_back(touch);
-    }
-    return touches;
 }
 
 }  // namespace grainreel

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/files/foreign/gaps.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/state_archive.hpp"
@@ -46,10 +47,13 @@ class GrainMeaning {
     bool has_ids() const { return id_.has_value(); }
     bool has_types() const { return type_.has_value(); }
     bool has_velocities() const { return velocity_[0] && velocity_[1]; }
-    bool has_spins() const { return spin_[0] && spin_[1] && spin_[2]; }
+    // Discs in a plane turn about z alone.
+    bool has_spins() const { return spin_[2] && (flat_ || (spin_[0] && spin_[1])); }
     bool has_orientations() const {
         return quaternion_[0] && quaternion_[1] && quaternion_[2] && quaternion_[3];
     }
+    // Whether grains have masses of their own; only if the user says no density.
+    bool has_masses() const { return (density_ || mass_) && !options_.density; }
     const UnitSystem& units() const { return units_; }
     // What was guessed, a line for each guess.
     const std::vector<std::string>& guesses() const { return guesses_; }
@@ -57,9 +61,11 @@ class GrainMeaning {
     // Adds the types of a frame to the list.
     void add_types(const RawFrame& raw, TypeList& types) const;
     // The grains of a frame by rising id, in SI. place: "run.dump: frame 3", for messages. Throws UserError
-    // for a radius that is not positive, an id that comes twice or is not a whole number, and a type that is
-    // not in the list.
-    State frame(const RawFrame& raw, const TypeList& types, const std::string& place) const;
+    // for a radius that is not positive, a place that is not finite, an id that comes twice or is not a whole
+    // number, a type that is not in the list, and for places and radii that no bed has. A number of a
+    // velocity or spin that is none, or that no bed has, becomes NaN, and so does a mass. gaps: gets what is
+    // not known.
+    State frame(const RawFrame& raw, const TypeList& types, const std::string& place, Gaps& gaps) const;
     // Mean density of each type in kg/m3 from columns of density or mass; NaN where it is not known.
     std::vector<double> densities(const RawFrame& raw, const TypeList& types) const;
     // The smallest id of a frame with grains.
@@ -76,6 +82,12 @@ class GrainMeaning {
     void find_places(const RawTable& table);
     void find_radius(const RawTable& table);
     Vec3 place_of(const RawFrame& raw, std::size_t row) const;
+    void tell_of_unwrapped(const RawFrame& frame);
+    void tell_of_shapes(const RawTable& table);
+    void refuse_words(const RawTable& table) const;
+    void add_grain(const RawFrame& raw, std::size_t row, const std::string& place, State& state,
+                   Gaps& gaps) const;
+    double mass_in(const RawTable& table, std::size_t row, double radius) const;
     double radius_of(const RawFrame& raw, std::size_t row, const std::string& place) const;
     std::string type_of(const RawFrame& raw, std::size_t row) const;
     void check_flat(const RawFrame& frame) const;
@@ -96,13 +108,14 @@ class GrainMeaning {
     std::array<Column, 3> place_{}, velocity_{}, spin_{};
     std::array<double, 3> velocity_unit_{};  // m/s
     std::array<bool, 3> scaled_{};
+    std::array<bool, 3> unwrapped_{};     // places that went on where a grain left a periodic box
     bool flat_ = false;                   // there is no column of z
     std::array<Column, 4> quaternion_{};  // w x y z
     std::vector<std::string> guesses_;
 };
 
 // The contacts of a frame by ids, with forces in N; wall k is -1 - k. None where the table has no pairs of
-// ids.
+// ids. Contacts whose ids or force are no numbers are left out.
 std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOptions& options,
                                             const UnitSystem& units, const std::string& file);
 

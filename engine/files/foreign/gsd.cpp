@@ -1,7 +1,9 @@
 // Reads GSD files of HOOMD-blue with the schema "hoomd". The chunks are read by gsd_file.hpp. If a frame
-// lacks a chunk, that of frame 0 is used, or the schema's default where the number of grains differs.
+// lacks a chunk, that of frame 0 is used. If the number of grains is another there, the schema has defaults;
+// a diameter of 1 m, a mass of 1 kg and grains at rest are no facts of such a frame, and stay unknown.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -22,12 +24,10 @@ constexpr std::string_view of_particles = "particles/", of_log = "log/",
                            of_logged_particles = "log/particles/";
 constexpr std::uint32_t most_columns = 64;  // columns of one chunk
 
-// The schema's default of a component; NaN where it has none.
+// The schema's default of a component; NaN where it has none that is to be believed.
 double default_of(const std::string& name, std::size_t component) {
-    static const std::set<std::string> zeros{"typeid", "charge",         "velocity",
-                                             "angmom", "moment_inertia", "image"};
+    static const std::set<std::string> zeros{"typeid", "charge", "angmom", "moment_inertia", "image"};
     if (zeros.count(name) > 0) return 0;
-    if (name == "mass" || name == "diameter") return 1;
     if (name == "body") return -1;
     if (name == "orientation") return component == 0 ? 1 : 0;
     return std::numeric_limits<double>::quiet_NaN();
@@ -37,6 +37,18 @@ std::string column_name(const std::string& name, std::size_t component, std::siz
     if (name == "position" && component < 3) return std::string(1, "xyz"[component]);
     if (name == "typeid") return "type";
     return components == 1 ? name : fmt::format("{}:{}", name, component);
+}
+
+// The name of a shape that is no sphere: "ConvexPolyhedron"; empty for a sphere and where nothing is said.
+std::string other_shape(const std::string& text) {
+    const nlohmann::json shape = nlohmann::json::parse(text, nullptr, false);
+    if (!shape.is_object() || !shape.contains("type") || !shape["type"].is_string()) return {};
+    const std::string name = shape["type"].get<std::string>();
+    if (name != "Ellipsoid") return name == "Sphere" ? std::string() : name;
+    const nlohmann::json a = shape.value("a", nlohmann::json());
+    return a.is_number() && a == shape.value("b", nlohmann::json()) && a == shape.value("c", nlohmann::json())
+               ? std::string()
+               : name;
 }
 
 // The diameter in {"type": "Sphere", "diameter": 2}; NaN for other shapes.
@@ -55,6 +67,7 @@ class GsdFrames : public RawFile {
 
     const RawFacts& facts() const override { return facts_; }
     const std::vector<RawMoment>& moments() const override { return moments_; }
+    std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t index) const override;
 
   private:
@@ -67,12 +80,16 @@ class GsdFrames : public RawFile {
     void add_log(RawTable& grains, const std::string& name, std::size_t frame) const;
     void name_types(RawTable& grains, std::size_t frame) const;
     void add_diameters_of_shapes(RawTable& grains, std::size_t frame) const;
+    void check_places(const RawFrame& frame, std::size_t index, std::uint64_t byte) const;
+    std::int64_t step_of(std::size_t frame) const;
+    void tell_of_shapes(const std::string& name);
 
     GsdFile file_;
     RawFacts facts_;
     std::vector<RawMoment> moments_;
     std::map<std::string, std::uint32_t> logged_;  // columns of what is logged for each grain, by name
     std::string time_name_;  // name of the chunk with the time; empty where there is none
+    std::vector<std::string> news_;
     mutable std::mutex reading_;
 };
 
@@ -83,6 +100,7 @@ GsdFrames::GsdFrames(const std::filesystem::path& path) : file_(path) {
     if (file_.frames() == 0) throw UserError(fmt::format("{}: has no frame", path.string()));
     facts_.format = "GSD";
     facts_.program = file_.application();
+    facts_.first_row_id = 0;  // as HOOMD's tags, bonds and groups count
     for (const std::string& name : file_.names())
         if (name.starts_with(of_log) && name.ends_with("/time") && time_name_.empty()) time_name_ = name;
     if (scalar("configuration/dimensions", 0).value_or(3) == 2) facts_.dimensions = 2;
@@ -93,8 +111,7 @@ GsdFrames::GsdFrames(const std::filesystem::path& path) : file_(path) {
         if (!(grains >= 0 && grains <= static_cast<double>(most)))
             throw UserError(fmt::format("{}: frame {} has {} grains", path.string(), frame, grains));
         moment.grains = static_cast<std::int64_t>(grains);
-        if (file_.has("configuration/step"))
-            moment.step = static_cast<std::int64_t>(scalar("configuration/step", frame).value_or(0));
+        if (file_.has("configuration/step")) moment.step = step_of(frame);
         moment.time = time_of(frame);
         moments_.push_back(moment);
     }
@@ -102,6 +119,27 @@ GsdFrames::GsdFrames(const std::filesystem::path& path) : file_(path) {
         for (std::size_t frame = 0; frame < file_.frames() && name.starts_with(of_logged_particles); ++frame)
             if (const GsdChunk* chunk = file_.find(name, frame); chunk && chunk->columns <= most_columns)
                 logged_.try_emplace(name, chunk->columns);
+    tell_of_shapes(path.string());
+}
+
+std::int64_t GsdFrames::step_of(std::size_t frame) const {
+    constexpr double most = 9e15;
+    const double step = scalar("configuration/step", frame).value_or(0);
+    if (!(std::abs(step) < most))
+        file_.fault(chunk_of("configuration/step", frame)->place,
+                    fmt::format("frame {} has the step {}, which no run reaches", frame, step));
+    return static_cast<std::int64_t>(step);
+}
+
+void GsdFrames::tell_of_shapes(const std::string& name) {
+    const GsdChunk* chunk = chunk_of("particles/type_shapes", 0);
+    if (!chunk) return;
+    std::set<std::string> shapes;
+    for (const std::string& text : file_.texts(*chunk))
+        if (const std::string shape = other_shape(text); !shape.empty()) shapes.insert(shape);
+    if (!shapes.empty())
+        news_.push_back(fmt::format("{}: has grains that are no spheres ({}); they are drawn as spheres",
+                                    name, fmt::join(shapes, ", ")));
 }
 
 const GsdChunk* GsdFrames::chunk_of(const std::string& name, std::size_t frame) const {
@@ -221,6 +259,24 @@ void GsdFrames::add_diameters_of_shapes(RawTable& grains, std::size_t frame) con
     grains.columns.push_back(std::move(column));
 }
 
+// The schema has all places in the box. One that is far outside of it is damage. byte: where the places are.
+void GsdFrames::check_places(const RawFrame& frame, std::size_t index, std::uint64_t byte) const {
+    constexpr double far = 10;  // times the box's own reach
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::string name(1, "xyz"[axis]);
+        const RawColumn* column = frame.grains.find(name);
+        double reach = 0;
+        for (const Vec3& edge : frame.box->edges)
+            reach += 0.5 * std::abs(edge[static_cast<Eigen::Index>(axis)]);
+        for (std::size_t i = 0; column && reach > 0 && i < frame.grains.rows; ++i)
+            if (std::abs(column->values[i]) > far * reach)
+                file_.fault(byte,
+                            fmt::format("grain {} of frame {} has {} = {:.3g}, far outside of the box; is "
+                                        "the file damaged?",
+                                        i, index, name, column->values[i]));
+    }
+}
+
 RawFrame GsdFrames::read(std::size_t index) const {
     const std::lock_guard lock(reading_);
     RawFrame frame;
@@ -240,6 +296,7 @@ RawFrame GsdFrames::read(std::size_t index) const {
     }
     if (!frame.grains.find("type") && file_.has("particles/types"))
         frame.grains.columns.push_back({"type", std::vector<double>(frame.grains.rows, 0.0), {}});
+    if (frame.box && places) check_places(frame, index, places->place);
     name_types(frame.grains, index);
     add_diameters_of_shapes(frame.grains, index);
     return frame;

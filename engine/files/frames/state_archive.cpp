@@ -94,6 +94,7 @@ State sorted_by_id(const State& frame) {
         sorted.id.push_back(frame.id[i]);
         sorted.species.push_back(frame.species[i]);
         sorted.radius.push_back(frame.radius[i]);
+        if (!frame.mass.empty()) sorted.mass.push_back(frame.mass[i]);
         sorted.position.push_back(frame.position[i]);
         sorted.velocity.push_back(frame.velocity[i]);
         sorted.spin.push_back(frame.spin[i]);

@@ -31,6 +31,7 @@ struct Scene;        // engine/scene/scene.hpp
 struct StateSupply {
     bool velocities = true;        // Frame::velocity; else they are zero
     bool spins = true;             // Frame::spin; else they are zero
+    bool masses = false;           // Frame::mass
     bool orientations = false;     // Frame::orientation
     bool contact_numbers = false;  // Frame::contact_number
     bool contacts = false;         // touches()
@@ -89,6 +90,8 @@ class StateArchive {
     virtual std::vector<std::string> damage() const { return {}; }
     // What the user should know, a line each: what is damaged and what is missing.
     virtual std::vector<std::string> news() const { return damage(); }
+    // What was noticed in the frames that were read so far, such as numbers that are none; a line each.
+    virtual std::vector<std::string> news_of_frames() const { return {}; }
 
     // The contacts of touches() with their points and tangential forces, for export; nothing where these are
     // not known. Throws UserError where they are damaged.

@@ -143,6 +143,8 @@ Exported export_frames(const StateArchive& frames, const std::string& format, co
     }
     if (writer->takes_all()) add_fields(frames, wanted, *writer);
     writer->end();
+    std::vector<std::string> news = frames.news_of_frames();
+    for (std::string& line : writer->news()) news.push_back(std::move(line));
     if (fs::is_directory(path, error)) fs::remove_all(path, error);
     fs::rename(part.path(), path, error);
     if (error) throw RunError(fmt::format("{}: cannot be made: {}", path.string(), error.message()));
@@ -151,7 +153,7 @@ Exported export_frames(const StateArchive& frames, const std::string& format, co
     if (choice.at)
         made.is_asked = std::abs(made.first - *choice.at) <=
                         std::max(0.51 * frames.step_length(), 1e-5 * std::abs(*choice.at));
-    made.news = writer->news();
+    made.news = std::move(news);
     return made;
 }
 
@@ -178,6 +180,25 @@ WorldCell box_of(const StoredWorld& world, const State& frame) {
         box.periodic[edge] = true;
     }
     return box;
+}
+
+void refuse_unknown_motion(const fs::path& path, const State& frame) {
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        for (const auto& [what, motion] :
+             {std::pair("velocity", &frame.velocity[i]), {"spin", &frame.spin[i]}})
+            if (!motion->allFinite())
+                throw UserError(
+                    fmt::format("{}: the {} of grain {} is not known, and a run cannot start with it; take "
+                                "another moment by --at, or write its {} into the file",
+                                path.string(), what, frame.id[i], what));
+}
+
+std::vector<std::string> news_of_rest(const fs::path& path, const StateSupply& supply) {
+    if (supply.velocities && supply.spins) return {};
+    return {fmt::format("{}: {} are not known, and are 0 in it", path.filename().string(),
+                        supply.velocities ? "spins"
+                        : supply.spins    ? "velocities"
+                                          : "velocities and spins")};
 }
 
 std::string one_word(const std::string& name) {

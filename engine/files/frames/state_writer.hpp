@@ -45,6 +45,11 @@ class StateWriter {
     virtual void fields(const FieldsReader&, const std::vector<std::size_t>& /*records*/) {}
 };
 
+// For formats that a run starts from. These throw UserError where the velocity or spin of a grain is not
+// known, and tell that grains are at rest where none is known.
+void refuse_unknown_motion(const std::filesystem::path& path, const State& frame);
+std::vector<std::string> news_of_rest(const std::filesystem::path& path, const StateSupply& supply);
+
 struct WriteFormat {
     const char* name;    // "trajectory"
     const char* about;   // "a trajectory.nc, as runs have it"
@@ -77,7 +82,7 @@ struct Exported {
     std::uintmax_t bytes = 0;
     double first = 0;      // s, time of the first frame
     bool is_asked = true;  // with ExportChoice::at: whether that frame is the moment that was asked for
-    std::vector<std::string> news{};
+    std::vector<std::string> news{};  // what the user should know, a line each
 };
 
 // Throws UserError where `path` exists already (unless `replace`), or the folder around it is missing.

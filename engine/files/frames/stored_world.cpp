@@ -161,6 +161,9 @@ TrajectoryInfo trajectory_info(const StoredWorld& world, const StateSupply& supp
     info.container_turns = world.container_turns;
     info.orientation = supply.orientations;
     info.contact_numbers = supply.contact_numbers;
+    info.masses = supply.masses;
+    info.velocities = supply.velocities;
+    info.spins = supply.spins;
     if (world.cell) info.cell = trajectory_cell(*world.cell);
     info.steps_known = world.steps_known;
     info.first_id = world.first_id;

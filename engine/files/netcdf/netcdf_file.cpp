@@ -273,6 +273,13 @@ std::size_t NetcdfFile::whole_records() const {
     return static_cast<std::size_t>(length > header_.begin ? (length - header_.begin) / header_.record : 0);
 }
 
+std::uint64_t NetcdfFile::bytes_behind_records() const {
+    std::error_code error;
+    const std::uint64_t length = std::filesystem::file_size(path_, error);
+    if (header_.record == 0 || error || length < header_.begin) return 0;
+    return (length - header_.begin) % header_.record;
+}
+
 using Index = std::vector<std::size_t>;
 
 void NetcdfFile::put(int variable, const Index& start, const Index& count, const int* values) {

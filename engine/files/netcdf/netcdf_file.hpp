@@ -83,6 +83,8 @@ class NetcdfFile {
     const NetcdfHeader& header() const { return header_; }
     // Number of whole records in a file that is read, whatever its header counts.
     std::size_t whole_records() const;
+    // Number of bytes behind the last record for which there is room.
+    std::uint64_t bytes_behind_records() const;
     // The same for a file that may still be written. There are fewer than `counted` when the file was cut off
     // and more when the count is damaged. The library counts a record shortly before it writes it; so this
     // waits a little where there are fewer and the file was just written.

@@ -64,6 +64,8 @@ struct TrajectoryInfo {
     bool container_turns = false;        // container and floor turn, and frames have their rotations
     bool orientation = false;
     bool contact_numbers = false;
+    bool masses = false;                   // grains have masses of their own
+    bool velocities = true, spins = true;  // false where the files that were read have none
     bool checksums = true;     // false in a file of an earlier version, where damage may look like data
     TrajectoryCell cell = {};  // of the first frame, and of all if nobody says otherwise
     bool steps_known = true;   // false where the steps only number the frames

@@ -54,7 +54,7 @@ inline constexpr std::array frame_variables{
     TrajectoryVariable{"cell_angles", NC_DOUBLE, "cell_angular", "degree", "angles of the periodic cell"}};
 
 // Variables with one value for each grain and frame, in the order in which they are written, read and added
-// to `grain_checksum`. orientation, contact_number and present follow there.
+// to `grain_checksum`. orientation, contact_number, mass and present follow there.
 inline constexpr std::array grain_variables{
     TrajectoryVariable{
         "id", NC_INT, nullptr, "1", "number of the grain",
@@ -148,6 +148,16 @@ inline constexpr TrajectoryVariable orientation_variable{"orientation",
 inline constexpr TrajectoryVariable contact_number_variable{
     "contact_number",       NC_INT, nullptr, "1", "contacts of the grain that carry force",
     "with grains and walls"};
+
+// Only in files of other programs' runs whose grains have masses of their own.
+inline constexpr TrajectoryVariable mass_variable{
+    "mass", NC_DOUBLE,           nullptr,
+    "kg",   "mass of the grain", "as its file has it; 0 in a place without a grain"};
+
+// An attribute of `velocities` and `spin`, only where the files that were read have no such numbers: then all
+// are 0. A single number that is not known is NaN.
+inline constexpr const char *unknown_attribute = "unknown",
+                            *unknown_about = "the files that these frames come from do not say it";
 
 // The names of axes that the convention asks for.
 struct TrajectoryLabel {

@@ -70,6 +70,9 @@ struct TrajectoryReader::Impl {
         info.capacity = file.length("atom");
         info.orientation = file.has_variable(orientation_variable.name);
         info.contact_numbers = file.has_variable(contact_number_variable.name);
+        info.masses = file.has_variable(mass_variable.name);
+        info.velocities = is_known("velocities");
+        info.spins = is_known("spin");
         info.traffic = file.has_variable(present_variable.name);
         if (file.has_variable(body_variables.front().name)) read_bodies();
         info.container_turns = file.has_variable(turn_variables.front().name);
@@ -90,6 +93,10 @@ struct TrajectoryReader::Impl {
         file.get(file.find_variable("cell_lengths"), {frame, 0}, {1, 3}, cell.length.data());
         file.get(file.find_variable("cell_angles"), {frame, 0}, {1, 3}, cell.angles.data());
         return cell;
+    }
+
+    bool is_known(const char* variable) const {
+        return file.text_attribute(file.find_variable(variable), unknown_attribute).empty();
     }
 
     // "2500 7800 kg m-3" by species; missing in files of earlier versions.
@@ -261,10 +268,11 @@ void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, State
     }
     if (info.contact_numbers)
         frame.contact_number = those_at(read<int>(contact_number_variable, index, places, 1, sum), here);
+    if (info.masses) frame.mass = those_at(read<double>(mass_variable, index, places, 1, sum), here);
     if (info.traffic) read<int>(present_variable, index, places, 1, sum);
     check_sum(grain_checksum, index, sum);
     for (std::int32_t& type : frame.species) type = type < 1 ? -1 : type - 1;
-    if (auto fault = grains_fault(frame, info.species.size())) damaged(index, *fault);
+    if (auto fault = grains_fault(frame, info.species.size(), info.checksums)) damaged(index, *fault);
 }
 
 TrajectoryReader::TrajectoryReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}

@@ -86,7 +86,10 @@ void TrajectoryWriter::Impl::define() {
     for (const TrajectoryVariable& variable : grain_variables) define_variable(variable, "atom");
     if (info.orientation) define_variable(orientation_variable, "atom");
     if (info.contact_numbers) define_variable(contact_number_variable, "atom");
+    if (info.masses) define_variable(mass_variable, "atom");
     if (info.traffic) define_variable(present_variable, "atom");
+    if (!info.velocities) file.attribute(variables["velocities"], unknown_attribute, unknown_about);
+    if (!info.spins) file.attribute(variables["spin"], unknown_attribute, unknown_about);
     if (!info.steps_known) file.attribute(variables["step"], kStepsOf, kStepsOfFrames);
     if (info.first_id != 0) {
         file.attribute(variables["id"], kFirstId, std::to_string(info.first_id));
@@ -135,6 +138,7 @@ void TrajectoryWriter::Impl::find_variables() {
         for (const TrajectoryVariable& variable : body_variables) find(variable.name);
     if (info.orientation) find(orientation_variable.name);
     if (info.contact_numbers) find(contact_number_variable.name);
+    if (info.masses) find(mass_variable.name);
     if (info.traffic) find(present_variable.name);
     find(frame_checksum);
     find(grain_checksum);
@@ -267,6 +271,8 @@ void TrajectoryWriter::Impl::write_grains(const State& f) {
         put(Floats{0, 0, 0, 1}, is_here, [&](std::size_t i, int k) { return f.orientation[i].coeffs()[k]; });
     variable = &contact_number_variable;
     if (info.contact_numbers) put(Ints{0}, is_here, [&](std::size_t i, int) { return f.contact_number[i]; });
+    variable = &mass_variable;
+    if (info.masses) put(Doubles{0}, is_here, [&](std::size_t i, int) { return f.mass[i]; });
     variable = &present_variable;
     if (info.traffic) put(Ints{0}, has_been, [&](std::size_t i, int) { return present[i]; });
     write_sum(grain_checksum, sum);
@@ -289,6 +295,7 @@ void TrajectoryWriter::Impl::keep(const State& frame) {
         kept.spin[at] = frame.spin[i];
         if (info.orientation) kept.orientation[at] = frame.orientation[i];
         if (info.contact_numbers) kept.contact_number[at] = frame.contact_number[i];
+        if (info.masses) kept.mass[at] = frame.mass[i];
         present[at] = 1;
     }
 }
@@ -303,6 +310,7 @@ void TrajectoryWriter::Impl::add_place(const State& frame, std::size_t i) {
     kept.position.emplace_back(), kept.velocity.emplace_back(), kept.spin.emplace_back();
     if (info.orientation) kept.orientation.emplace_back();
     if (info.contact_numbers) kept.contact_number.push_back(0);
+    if (info.masses) kept.mass.push_back(0);
     present.push_back(1);
 }
 
@@ -330,8 +338,9 @@ TrajectoryWriter::~TrajectoryWriter() = default;
 bool TrajectoryWriter::goes_on_with(const TrajectoryInfo& info, const std::filesystem::path& path) {
     const TrajectoryInfo there = TrajectoryReader(path).info();
     if (there.species != info.species || there.bodies != info.bodies || there.traffic != info.traffic ||
-        there.orientation != info.orientation || there.container_turns != info.container_turns ||
-        !same_meshes(there.meshes, info.meshes) || !there.checksums)
+        there.orientation != info.orientation || there.masses != info.masses ||
+        there.container_turns != info.container_turns || !same_meshes(there.meshes, info.meshes) ||
+        !there.checksums)
         throw UserError(
             fmt::format("{}: is of another scene, or of another version of grainreel", path.string()));
     return there.capacity == std::max<std::size_t>(info.capacity, 1);
@@ -361,6 +370,7 @@ void TrajectoryWriter::set_cell(const TrajectoryCell& cell) {
 void TrajectoryWriter::write(const State& frame) {
     GRAINREEL_CHECK(!impl_->info.orientation || frame.orientation.size() == frame.size());
     GRAINREEL_CHECK(!impl_->info.contact_numbers || frame.contact_number.size() == frame.size());
+    GRAINREEL_CHECK(!impl_->info.masses || frame.mass.size() == frame.size());
     GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.bodies.size());
     if (frame.size() > impl_->info.capacity) {
         throw RunError(fmt::format("{}: has places for {} grains, and a frame has {}", impl_->name,

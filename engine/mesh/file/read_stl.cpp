@@ -81,14 +81,19 @@ class AsciiStl {
     TriangleMesh read() {
         TriangleMesh mesh;
         for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
-            // The rest of these lines is a name, and may be any words.
-            if (same_word(word, "solid") || same_word(word, "endsolid"))
-                words_.skip_line();
-            else if (same_word(word, "facet"))
+            const bool begins = same_word(word, "solid");
+            if (begins || same_word(word, "endsolid")) {
+                open_ = begins;
+                words_.skip_line();  // a name, which may be any words
+            } else if (same_word(word, "facet"))
                 mesh.triangles.push_back(facet());
             else
                 unexpected(word, "facet");
         }
+        if (open_)
+            refuse_line(file_, words_.line(),
+                        "the file ends within a solid, where \"endsolid\" must stand; was it copied or "
+                        "written to the end?");
         mesh.vertices = std::move(pool_.vertices());
         return mesh;
     }
@@ -147,6 +152,7 @@ class AsciiStl {
     const fs::path& file_;
     WordReader words_;
     VertexPool pool_;
+    bool open_ = false;  // between solid and endsolid
 };
 
 Vec3 corner_at(const fs::path& file, std::string_view bytes, std::size_t at) {

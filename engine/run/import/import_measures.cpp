@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
+#include "engine/base/mathematics.hpp"
 #include "engine/files/fields_file.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/measure/bed/bed_observers.hpp"
@@ -84,8 +86,10 @@ Grains grains_of(const State& frame, const Scene& scene) {
     grains.reserve(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const auto species = static_cast<std::size_t>(frame.species[i]);
-        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i],
-                   scene.species[species].density);
+        double density = scene.species[species].density;
+        if (!frame.mass.empty())
+            density = frame.mass[i] / (4.0 / 3 * std::numbers::pi * math::cube(frame.radius[i]));
+        grains.add(frame.id[i], frame.species[i], frame.position[i], frame.radius[i], density);
         grains.motion[i].velocity = frame.velocity[i];
         grains.motion[i].spin = frame.spin[i];
     }

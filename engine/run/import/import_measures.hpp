@@ -18,7 +18,7 @@
 
 namespace grainreel {
 
-// The grains of a frame. Their density is that of their species.
+// The grains of a frame, with their own masses or with the density of their species.
 Grains grains_of(const State& frame, const Scene& scene);
 
 // Runs those observers that need only places, velocities or contacts.

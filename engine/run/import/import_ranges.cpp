@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -26,8 +25,7 @@ constexpr int no_size = -1'000'000;      // the class of the value 0
 // The kinetic energy in J of translation and rotation, with 2/5 m r2 for a solid sphere.
 double energy_of(const State& frame, std::size_t i, const Scene& scene) {
     const double r = frame.radius[i];
-    const double mass = scene.species[static_cast<std::size_t>(frame.species[i])].density * 4.0 / 3.0 *
-                        std::numbers::pi * r * r * r;
+    const double mass = mass_of(frame, i, scene.species[static_cast<std::size_t>(frame.species[i])].density);
     return 0.5 * mass * (frame.velocity[i].squaredNorm() + 0.4 * r * r * frame.spin[i].squaredNorm());
 }
 

@@ -75,10 +75,13 @@ ArrivalFacts arrival_facts(const Scene& scene, const ForeignArchive& archive, co
     world.traffic = true;  // in a run of another program any grain may come and go
     world.most_grains = std::max<std::size_t>(1, survey.places);
     if (archive.world().cell) world.cell = archive.world().cell;
-    world.steps_known = archive.keeps_steps();
+    // A single moment without a time gets the step 0 (Import::take).
+    const bool single = !archive.world().time_known && archive.moments().size() == 1;
+    world.steps_known = archive.keeps_steps() && (!single || archive.moments().front().step == 0);
     world.first_id = archive.world().first_id;
     ArrivalFacts facts;
     facts.supply = archive.supply();
+    facts.supply.masses = survey.masses;
     facts.header = trajectory_info(world, facts.supply);
     facts.clock = clock_of(scene, archive.moments());
     facts.in_container = request.reading.moves_with_container && scene.drive.moves == Drive::Moves::container;
@@ -96,6 +99,7 @@ struct Import::Files {
     const ImportWalls walls;
     const std::string scene_text;
     const Scene scene;
+    const bool masses;  // whether the grains have masses of their own
     Arrival arrival;
     std::optional<ImportWear> wear;
     // What these files can hold.
@@ -109,6 +113,7 @@ Import::Files::Files(const ImportRequest& request, const ForeignArchive& archive
     : walls(write_import_walls(request.folder, archive, request.reading, news)),
       scene_text(import_scene_text(archive, survey, request.reading, walls, news)),
       scene(written_and_read(scene_text, request)),
+      masses(survey.masses),
       arrival(request.folder, scene, arrival_facts(scene, archive, survey, request)),
       types(archive.types()),
       supply(archive.supply()),
@@ -140,7 +145,7 @@ ImportSurvey Import::first_guess() {
     const std::size_t first = archive_.first_with_grains();
     archive_.take_types(first);
     ImportSurvey guess;
-    guess.add(archive_.grains(first), archive_.types());
+    guess.add(archive_.grains(first), archive_.types(), archive_.world());
     guess.places = std::max(guess.places, archive_.world().most_grains);
     return guess;
 }
@@ -173,7 +178,7 @@ ImportSurvey Import::read_all(const ImportSurvey& guess) {
             throw RunError("stopped while frames were read");
         archive_.take_types(next_);
         State frame = archive_.grains(next_);
-        survey.add(frame, archive_.types());
+        survey.add(frame, archive_.types(), archive_.world());
         if (files_ && !survey.within(guess, depends_on_box_)) drop();
         if (files_) take(next_, std::move(frame));
     }
@@ -184,6 +189,7 @@ void Import::take(std::size_t index, State frame) {
     if (run_.frames > 0 && frame.step <= last_step_) return;  // a second frame of the same moment
     last_step_ = frame.step;
     if (!archive_.world().time_known && archive_.moments().size() == 1) frame.step = 0;
+    if (!files_->masses) frame.mass.clear();
     files_->arrival.complete(frame);
     files_->arrival.take(frame, archive_.touches(index).value_or(std::vector<Link>()));
     if (files_->wear) files_->wear->write(index);
@@ -231,6 +237,7 @@ void Import::finish(const ImportSurvey& survey) {
     tell_of_contacts();
     tell_of_box();
     files_->arrival.close();
+    for (std::string& line : archive_.news_of_frames()) run_.news.push_back(std::move(line));
     std::string news;
     for (const std::string& line : run_.news) news += line + "\n";
     write_import_text(request_.folder / kImportNews, news);
@@ -295,8 +302,8 @@ bool Import::take_next() {
             fmt::format("{}: has a type that the frames before lacked; name all types by --species",
                         request_.from.string()));
     State frame = archive_.grains(next_++);
-    survey_.add(frame, archive_.types());
-    if (survey_.places > files_->places)
+    survey_.add(frame, archive_.types(), archive_.world());
+    if (survey_.places > files_->places || (survey_.masses && !files_->masses))
         begin_again();
     else
         take(next_ - 1, std::move(frame));

@@ -222,7 +222,24 @@ std::string film_text(const ForeignArchive& archive, const ImportSurvey& survey,
 
 }  // namespace
 
-void ImportSurvey::add(const State& frame, const std::vector<std::string>& types) {
+namespace {
+
+bool has_own_masses(const State& frame, const StoredWorld& world) {
+    constexpr double hair = 1e-6;  // numbers of single precision differ by less
+    State spheres;
+    spheres.radius = frame.radius;
+    for (std::size_t i = 0; i < frame.mass.size(); ++i) {
+        const double usual =
+            mass_of(spheres, i, world.species[static_cast<std::size_t>(frame.species[i])].density);
+        if (!(std::abs(frame.mass[i] - usual) <= hair * usual)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void ImportSurvey::add(const State& frame, const std::vector<std::string>& types, const StoredWorld& world) {
+    masses = masses || has_own_masses(frame, world);
     // A new type may come between two others.
     std::vector<Species> now;
     for (const std::string& type : types) {
@@ -252,7 +269,7 @@ void ImportSurvey::add(const State& frame, const std::vector<std::string>& types
 }
 
 bool ImportSurvey::within(const ImportSurvey& all, bool box) const {
-    if (places > all.places || species.size() != all.species.size()) return false;
+    if (places > all.places || (masses && !all.masses) || species.size() != all.species.size()) return false;
     for (std::size_t s = 0; s < species.size(); ++s) {
         const Species &one = species[s], &other = all.species[s];
         if (one.type != other.type || one.largest > other.largest) return false;

@@ -26,9 +26,10 @@ struct ImportSurvey {
          high = Vec3::Constant(-1e300);  // m, corners of the box around all grains
     std::vector<std::int32_t> ids{};     // all different ids, rising
     std::size_t places = 0;              // that a file needs for grains: as many as there are ids
+    bool masses = false;                 // some grain's mass is not that of its species' density
 
-    // Adds a frame, whose species are those of these types.
-    void add(const State& frame, const std::vector<std::string>& types);
+    // Adds a frame, whose species are those of these types, and of this world.
+    void add(const State& frame, const std::vector<std::string>& types, const StoredWorld& world);
     // The corners of the box around all grains; those of a box of 1 m without grains.
     Vec3 lowest() const { return ids.empty() ? Vec3(Vec3::Constant(-0.5)) : low; }
     Vec3 highest() const { return ids.empty() ? Vec3(Vec3::Constant(0.5)) : high; }

@@ -106,6 +106,7 @@ class StoredRun final : public StateArchive {
     State first() const override { return is_folder_ ? first_whole() : frames_->first(); }
     const Scene* scene() const override { return frames_->scene(); }
     std::vector<std::string> news() const override;
+    std::vector<std::string> news_of_frames() const override { return frames_->news_of_frames(); }
 
     // The moments of the trajectory and of the film's pictures. Only a run's folder has the latter.
     const KeptList& kept() const;

@@ -56,6 +56,13 @@ class Watcher {
     struct Side {
         std::int32_t group, place;  // of MeshLists::near; -1 for a grain of another thread
         std::int32_t mesh;
+        std::int32_t first_plane = 0, planes = 0;  // the planes of its triangles, each once
+    };
+    // A plane in the frame of the scene. Its normal points to the side of the grain.
+    struct Plane {
+        Vec3 normal;
+        double level;  // m, normal . point
+        bool is_far;   // whether the grain stays on its side until the next refresh
     };
     static constexpr std::int32_t kNone = -1;
 
@@ -67,11 +74,13 @@ class Watcher {
 
     void list_grains();
     void list_sides();
+    void list_planes(std::int32_t grain, Side& side);
     void gather(std::int32_t grain, std::vector<WallNeighbour>::const_iterator& wall);
     bool may_screen() const;
     void list_pairs();
     bool has_side(std::int32_t grain) const { return first_side_[static_cast<std::size_t>(grain)] != kNone; }
     bool may_stand_between(std::int32_t grain, const Vec3& to_other) const;
+    bool may_cross_any(const Side& side, std::int32_t grain, const Vec3& other) const;
     bool may_cross(const Surface& surface, std::int32_t triangle, const Vec3& from, const Vec3& to) const;
     void look_at(std::int32_t group, std::int32_t first, std::int32_t second);
 
@@ -83,7 +92,8 @@ class Watcher {
     std::vector<Side> sides_;               // by rising grain, then mesh
     std::vector<std::int32_t> first_side_;  // for each grain: its first in sides_, or kNone
     std::vector<std::int32_t> of_side_;     // the grain of each
-    std::vector<Piece> pieces_;             // of one grain, and its radius (m)
+    std::vector<Plane> planes_;
+    std::vector<Piece> pieces_;  // of one grain, and its radius (m)
     double radius_ = 0;
 };
 
@@ -100,6 +110,7 @@ void Watcher::list_sides() {
             const std::int32_t at = next[g];
             if (at == std::ssize(near) || near[at].grain != grain || near[at].mesh != mesh) continue;
             side = {static_cast<std::int32_t>(g), next[g]++, mesh};
+            list_planes(grain, side);
         }
         if (first_side_[grain] == kNone) first_side_[grain] = static_cast<std::int32_t>(sides_.size());
         sides_.push_back(side);
@@ -107,7 +118,32 @@ void Watcher::list_sides() {
     }
 }
 
-// Appends the pieces of all walls near an own grain. `wall` is the place in the list of near faces.
+void Watcher::list_planes(std::int32_t grain, Side& side) {
+    constexpr double kEqual = 1e-9;
+    constexpr std::ptrdiff_t kRecent = 16;  // planes among which equal ones are looked for
+    const MeshNear& near = near_of(side);
+    const Surface& surface = *nearby_.meshes[side.mesh].surface;
+    const BodyPose& pose = poses_[side.mesh];
+    const Place& own = grains_.place[grain];
+    const auto* const triangle = contacts_.meshes[side.group].triangles.data() + near.first;
+    side.first_plane = static_cast<std::int32_t>(planes_.size());
+    for (std::int32_t t = 0; t < near.count; ++t) {
+        const Vec3& out = surface.normal(triangle[t].number);
+        const double distance = out.dot(near.centre - surface.corner(triangle[t].number, 0));
+        const Vec3 normal = pose.rotation * (distance < 0 ? Vec3(-out) : out);
+        const double level = normal.dot(own.position) - std::abs(distance);
+        const auto recent = planes_.end() - std::min(kRecent, std::ssize(planes_) - side.first_plane);
+        const bool is_old = std::any_of(recent, planes_.end(), [&](const Plane& p) {
+            return (p.normal - normal).squaredNorm() < kEqual * kEqual &&
+                   std::abs(p.level - level) < kEqual * own.radius;
+        });
+        if (!is_old) planes_.push_back({normal, level, std::abs(distance) > nearby_.skin});
+    }
+    side.planes = static_cast<std::int32_t>(planes_.size()) - side.first_plane;
+}
+
+// Gathers the pieces of all walls near an own grain, or none if there is one wall only. `wall` is the place
+// in the list of near faces.
 void Watcher::gather(std::int32_t grain, std::vector<WallNeighbour>::const_iterator& wall) {
     const Place& own = grains_.place[grain];
     pieces_.clear();
@@ -120,8 +156,9 @@ void Watcher::gather(std::int32_t grain, std::vector<WallNeighbour>::const_itera
         if (to.distance < own.radius + nearby_.skin)
             pieces_.push_back({wall->face, -to.distance * to.normal, flat ? to.normal : Vec3(0, 0, 0)});
     }
-    for (std::size_t s = static_cast<std::size_t>(first_side_[grain]);
-         s < sides_.size() && of_side_[s] == grain; ++s) {
+    const auto first = static_cast<std::size_t>(first_side_[grain]);
+    if (pieces_.empty() && (first + 1 == sides_.size() || of_side_[first + 1] != grain)) return;
+    for (std::size_t s = first; s < sides_.size() && of_side_[s] == grain; ++s) {
         const Side& side = sides_[s];
         const MeshNear& near = near_of(side);
         const Surface& surface = *nearby_.meshes[side.mesh].surface;
@@ -155,7 +192,7 @@ void Watcher::list_grains() {
         const std::int32_t grain = of_side_[s];
         if (!contacts_.owns(grain) || (s > 0 && of_side_[s - 1] == grain)) continue;
         gather(grain, wall);
-        if (pieces_.front().wall == pieces_.back().wall || !may_screen()) continue;
+        if (pieces_.empty() || !may_screen()) continue;
         const auto first = static_cast<std::int32_t>(watch.walls.size());
         for (const Piece& piece : pieces_)
             if (std::ssize(watch.walls) == first || watch.walls.back() != piece.wall)
@@ -176,27 +213,33 @@ bool Watcher::may_cross(const Surface& surface, std::int32_t triangle, const Vec
 }
 
 bool Watcher::may_stand_between(std::int32_t grain, const Vec3& to_other) const {
-    const Place& own = grains_.place[grain];
-    std::vector<std::int32_t> triangles;
-    for (std::size_t s = static_cast<std::size_t>(first_side_[grain]);
-         s < sides_.size() && of_side_[s] == grain; ++s) {
+    const Vec3 other = grains_.place[grain].position + to_other;
+    for (auto s = static_cast<std::size_t>(first_side_[grain]); s < sides_.size() && of_side_[s] == grain;
+         ++s) {
         const Side& side = sides_[s];
-        const Surface& surface = *nearby_.meshes[side.mesh].surface;
-        const BodyPose& pose = poses_[side.mesh];
-        const Vec3 from = pose.at_rest(own.position), to = pose.at_rest(own.position + to_other);
-        const auto crosses = [&](std::int32_t triangle) { return may_cross(surface, triangle, from, to); };
         if (side.place == kNone) {
-            triangles.clear();
-            surface.near(from, own.radius + nearby_.skin, triangles);
-            if (std::any_of(triangles.begin(), triangles.end(), crosses)) return true;
+            if (may_cross_any(side, grain, other)) return true;
             continue;
         }
-        const MeshNear& near = near_of(side);
-        const auto* const first = contacts_.meshes[side.group].triangles.data() + near.first;
-        if (std::any_of(first, first + near.count, [&](const NearTriangle& t) { return crosses(t.number); }))
+        const Plane* const first = planes_.data() + side.first_plane;
+        if (std::any_of(first, first + side.planes, [&](const Plane& plane) {
+                return !plane.is_far || !(plane.normal.dot(other) - plane.level > nearby_.skin);
+            }))
             return true;
     }
     return false;
+}
+
+// The same for a grain of another thread, whose triangles are not listed here.
+bool Watcher::may_cross_any(const Side& side, std::int32_t grain, const Vec3& other) const {
+    const Surface& surface = *nearby_.meshes[side.mesh].surface;
+    const BodyPose& pose = poses_[side.mesh];
+    const Place& own = grains_.place[grain];
+    const Vec3 from = pose.at_rest(own.position), to = pose.at_rest(other);
+    std::vector<std::int32_t> triangles;
+    surface.near(from, own.radius + nearby_.skin, triangles);
+    return std::any_of(triangles.begin(), triangles.end(),
+                       [&](std::int32_t triangle) { return may_cross(surface, triangle, from, to); });
 }
 
 // A mesh that stands between two grains that touch is within the radius of one of them.

@@ -83,12 +83,12 @@ class Export final : public Verb {
         const ShareWatcher watcher(reporter, Progress::Stage::exporting);
         const Exported made = export_frames(run, format_, out_.empty() ? usual_name() : out_, choice_, force_,
                                             [&](double done) { return watcher(format_, done); });
-        for (const std::string& line : made.news) reporter.info(line);
         if (choice_.at && !made.is_asked)
             reporter.info(
                 fmt::format("--at: {:.6g} s was not kept; {:.6g} s is written, the kept moment that "
                             "is nearest",
                             *choice_.at, made.first));
+        for (const std::string& line : made.news) reporter.info(line);
         reporter.info(fmt::format("wrote {}: {}, {}", made.path.string(), counted(made.frames, "frame"),
                                   data_size_text(static_cast<double>(made.bytes))));
         print_exact(made.path.string() + "\n");

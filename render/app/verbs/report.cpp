@@ -12,6 +12,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_names.hpp"
@@ -183,7 +184,7 @@ class Report final : public Verb {
     // Whether the file's first lines name this program as what made it (page.html).
     static bool is_page(const fs::path& file) {
         std::string head(512, '\0');
-        std::ifstream in(file, std::ios::binary);
+        std::ifstream in = read_plain(file);
         in.read(head.data(), std::ssize(head));
         return head.find(R"(<meta name="generator" content="grainreel">)") != std::string::npos;
     }

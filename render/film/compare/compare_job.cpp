@@ -174,7 +174,7 @@ void CompareJob::report_written() {
     for (const auto& member : all_.members) {
         if (member->run() == nullptr) continue;
         folders.push_back(member->place() + "/");
-        for (const std::string& line : member->source().news())
+        for (const std::string& line : member->news())
             desk_.listener.warning(fmt::format("{}: {}", member->place(), line));
     }
     const std::string runs =

@@ -76,6 +76,13 @@ ShotPtr ComparedMember::next(const GoOn& go_on) {
     return picture ? std::move(picture->frame) : nullptr;
 }
 
+std::vector<std::string> ComparedMember::news() const {
+    std::vector<std::string> lines = source_->news();
+    if (!driver_) return lines;
+    if (auto warning = driver_->overlap_warning()) lines.push_back(std::move(*warning));
+    return lines;
+}
+
 void ComparedMember::keep_state() {
     if (folder_ && folder_->follow()) driver_->close(failed_);
 }
@@ -89,7 +96,7 @@ void ComparedMember::close(RunStatus status, int exit_status, FirstFailure& fail
     if (!folder_ || !folder_->is_there()) return;
     driver_->conclude(report_);
     report_.warnings = driver_->plan().warnings;
-    for (std::string& line : source_->news()) report_.warnings.push_back(std::move(line));
+    for (std::string& line : news()) report_.warnings.push_back(std::move(line));
     report_.status = failed_.any()                 ? RunStatus::failed
                      : status == RunStatus::failed ? RunStatus::interrupted
                                                    : status;

@@ -41,6 +41,8 @@ class ComparedMember {
     // then and stops when that returns false; pack() then returns false, and next() null.
     void begin(const std::filesystem::path& folder, const JobRequest& request);
     bool pack(const GoOn& go_on);
+    // What the user should know of the run, a line each.
+    std::vector<std::string> news() const;
     std::string found_packing_text() const { return driver_ ? driver_->found_packing_text() : ""; }
     void start(const Pictures& pictures);
     ShotPtr next(const GoOn& go_on);  // null also after the last picture; the rest of the run is then done

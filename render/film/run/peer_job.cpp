@@ -169,6 +169,10 @@ bool PeerJob::work() {
         desk_.listener.info(fmt::format("{}; the film shows what there is", failure));
     if (back_->frames() > 0) {
         back_->close(record);
+        if (const std::string overlap = back_->overlap_text(); !overlap.empty()) {
+            desk_.listener.warning(overlap);
+            record.warnings.push_back(overlap);
+        }
         draw();
     }
     if (!failure.empty()) throw RunError(failure);

@@ -62,7 +62,7 @@ std::vector<std::size_t> merged(const std::vector<std::size_t>& a, const std::ve
 class BedWriter {
   public:
     BedWriter(const StateArchive& run, const PageProgress& progress, const PageContacts& contacts)
-        : run_(run), progress_(progress), contacts_(contacts) {}
+        : run_(run), progress_(progress), contacts_(contacts), moves_(run.supply().velocities) {}
 
     // keys: the chosen moments whose pairs are kept.
     PageBed write(const std::vector<std::size_t>& chosen, const std::vector<std::size_t>& keys) {
@@ -106,7 +106,7 @@ class BedWriter {
             for (std::size_t i = 0; i < frame.size(); ++i) {
                 seen.try_emplace(frame.id[i], Kept{frame.id[i], frame.species[i], frame.radius[i],
                                                    std::abs(frame.position[i].x())});
-                bed_.highest_speed = std::max(bed_.highest_speed, frame.velocity[i].norm());
+                bed_.highest_speed = std::max(bed_.highest_speed, frame.velocity[i].norm());  // none for NaN
                 take_into_box(frame.position[i]);
             }
         }
@@ -145,7 +145,9 @@ class BedWriter {
             if (found == slot_.end()) continue;
             const std::size_t grain = found->second;
             for (int axis = 0; axis < 3; ++axis) add_place(at, axis, grain, frame.position[i][axis]);
-            at[6 * n + grain] = speed_byte(frame.velocity[i].norm(), bed_.lowest_speed, bed_.highest_speed);
+            at[6 * n + grain] =
+                moves_ ? speed_byte(frame.velocity[i].norm(), bed_.lowest_speed, bed_.highest_speed)
+                       : kUnknownSpeed;
             if (told) at[7 * n + grain] = contact_byte(frame.contact_number[i]);
             at[8 * n + grain] = 1;
         }
@@ -200,6 +202,7 @@ class BedWriter {
     const StateArchive& run_;
     const PageProgress& progress_;
     const PageContacts& contacts_;
+    const bool moves_;  // whether velocities are known
     bool boxed_ = false;
     PageBed bed_;
     std::vector<Kept> kept_;  // the grains, by rising id
@@ -215,6 +218,7 @@ std::size_t most_grains_at_once(const StateArchive& run) {
 }  // namespace
 
 std::uint8_t speed_byte(double speed, double lowest, double highest) {
+    if (std::isnan(speed)) return kUnknownSpeed;
     if (!(speed >= lowest) || lowest <= 0) return 0;
     const double share = std::log(speed / lowest) / std::log(highest / lowest);
     return static_cast<std::uint8_t>(1 + std::lround(253 * std::clamp(share, 0.0, 1.0)));

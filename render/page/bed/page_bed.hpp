@@ -99,7 +99,9 @@ PageBed page_bed_of(const StateArchive& run, const std::vector<std::size_t>& cho
 // it: 2.3 %, as bed_about() (page_parts.cpp) tells the reader.
 constexpr double kByteSpan = 1e5;
 
-// The byte that stands for a speed: 0 below `lowest`, else 1 to 254, evenly spaced in its logarithm.
+// The byte that stands for a speed: 0 below `lowest`, else 1 to 254, evenly spaced in its logarithm;
+// kUnknownSpeed for NaN.
+inline constexpr std::uint8_t kUnknownSpeed = 255;
 std::uint8_t speed_byte(double speed, double lowest, double highest);
 
 }  // namespace grainreel

@@ -227,7 +227,8 @@ Methods methods(const FilmedScene& scene, const Plan& plan, const RunJson& recor
             "that it "
             "touches, at the nearest point of its faces, edges and corners; triangles that turn by less than "
             "{:.3g} "
-            "degrees from their neighbours are one patch.",
+            "degrees from their neighbours are one patch. Of two places whose normals differ by less, in one "
+            "mesh or in two, the nearer one counts, and what lies behind a wall is not touched.",
             meshes_text(scene), kSmoothAngle * 180 / std::numbers::pi);
     if (record.state_hash)
         result.paragraph += fmt::format(" The hash of the end state is {}.", hash_text(record));

@@ -197,7 +197,8 @@ class BedPanel {
         const {packed, speed} = this.frames, bytes = [];
         const stride = 4 * Math.max(1, Math.floor(packed.length / 4 / 20000));
         for (let at = 3; at < packed.length; at += stride)
-            if (packed[at] !== 0xffff) bytes.push(Math.max(1, packed[at] & 0xff));
+            if ((packed[at] & 0xff) !== 255) bytes.push(Math.max(1, packed[at] & 0xff));
+        if (bytes.length === 0) bytes.push(1);
         bytes.sort((a, b) => a - b);
         const at = (share) => (bytes[Math.floor(share * (bytes.length - 1))] - 1) / 253;
         const low = at(0.02), high = Math.max(low + 0.05, at(0.995));
@@ -341,7 +342,11 @@ class BedPanel {
         const parts = [
             `diameter ${numberText(2000 * frames.radii[grain])} mm`,
             `at (${inMm}) mm`,
-            speed > 0 ? `speed ${speed.toPrecision(2)} m/s` : `speed below ${numberText(this.facts.speed.lowest)} m/s`,
+            speed === null
+                ? "its speed is not known"
+                : speed > 0
+                  ? `speed ${speed.toPrecision(2)} m/s`
+                  : `speed below ${numberText(this.facts.speed.lowest)} m/s`,
         ];
         const contacts = this.facts.contacts ? frames.contactsAt(frame, grain) : null;
         if (contacts !== null) parts.push(`${contacts} contacts`);

@@ -5,8 +5,19 @@
 //   then for each moment: x, y and z, each as N low bytes and N high bytes of a zigzag difference from the moment
 //   before (from 0 at first); N bytes of speed; N contact numbers; N bytes of presence; and, where the film colours its
 //   grains by a quantity, N bytes of that: 0 where it is not known, else 1 to 255 over the film's range.
-// Where a grain is not present, its differences, speed and presence are 0. render/page/bed/page_bed.hpp describes the
-// same bytes, which page_bed.cpp writes. A place is low + number (high - low) / 65535 along each axis.
+// Where a grain is not present, its differences, speed and presence are 0. A speed or contact number that is not known is
+// 255. render/page/bed/page_bed.hpp describes the same bytes, which page_bed.cpp writes. A place is low + number (high -
+// low) / 65535 along each axis.
+
+/** Stands for a grain that is not present: a speed that is not known, of a grain with 254 contacts. */
+const absent = 0xfeff;
+
+/** The state of a present grain in two bytes. It is never `absent`: 254 contacts of an unknown speed become 253. */
+function presentState(speed, contacts) {
+    const state = speed | (contacts << 8);
+    return state === absent ? state - 0x100 : state;
+}
+
 class PageBed {
     constructor(facts, bytes) {
         Object.assign(this, facts); // grains, times, low, high, places, speed, ...
@@ -18,8 +29,8 @@ class PageBed {
         this.ids = Int32Array.from({length: n}, (_, i) => view.getInt32(4 * i, true));
         this.species = Uint16Array.from({length: n}, (_, i) => view.getUint16(4 * n + 2 * i, true));
         this.radii = Float32Array.from({length: n}, (_, i) => view.getFloat32(6 * n + 4 * i, true));
-        // The data as the graphics card reads it: x, y, z; speed and contact number, or 255 twice for a grain that
-        // is not present.
+        // The data as the graphics card reads it: x, y, z; speed and contact number, each 255 where it is not known;
+        // or `absent` for a grain that is not present.
         this.packed = new Uint16Array(4 * n * k);
         this.filmBytes = new Uint8Array(this.film ? n * k : 0);
         this.unpack(bytes.subarray(10 * n), perGrain * n);
@@ -40,13 +51,13 @@ class PageBed {
             }
             const speed = from + 6 * n, contacts = speed + n, present = contacts + n;
             for (let i = 0; i < n; ++i)
-                packed[into + 4 * i + 3] = bytes[present + i] ? bytes[speed + i] | (bytes[contacts + i] << 8) : 0xffff;
+                packed[into + 4 * i + 3] = bytes[present + i] ? presentState(bytes[speed + i], bytes[contacts + i]) : absent;
             if (this.film) this.filmBytes.set(bytes.subarray(present + n, present + 2 * n), frame * n);
         }
     }
 
     isPresent(frame, grain) {
-        return this.packed[4 * (frame * this.grains + grain) + 3] !== 0xffff;
+        return this.packed[4 * (frame * this.grains + grain) + 3] !== absent;
     }
 
     /** The place of a grain's middle in m. */
@@ -57,10 +68,14 @@ class PageBed {
         );
     }
 
-    /** The speed in m/s. A byte b from 1 on stands for lowest (highest / lowest)^((b - 1) / 253); 0 for less than lowest. */
+    /**
+     * The speed in m/s; null when it is not known. A byte b from 1 to 254 stands for lowest (highest / lowest)^((b - 1) /
+     * 253); 0 for less than lowest.
+     */
     speedAt(frame, grain) {
         const byte = this.packed[4 * (frame * this.grains + grain) + 3] & 0xff;
         const {lowest, highest} = this.speed;
+        if (byte === 255) return null;
         return byte === 0 ? 0 : lowest * Math.pow(highest / lowest, (byte - 1) / 253);
     }
 

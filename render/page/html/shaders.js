@@ -4,7 +4,7 @@ const grainVertexShader = `#version 300 es
 precision highp float;
 precision highp int;
 layout(location = 0) in uvec3 place;      // of 65535, over the box
-layout(location = 1) in uvec2 state;      // speed, contact number; 255 twice: not there
+layout(location = 1) in uvec2 state;      // speed, contact number, 255: not known; 255 and 254: not there
 layout(location = 2) in uvec3 earlier;    // place in the moment before
 layout(location = 3) in float startHeight;
 layout(location = 4) in float fullRadius; // m
@@ -30,7 +30,7 @@ vec3 placeOf(uvec3 number) { return low + vec3(number) * size / 65535.0; }
 
 vec3 colourFor(vec4 ofSpecies, vec3 now) {
     if (colourBy == 0) return ofSpecies.rgb;
-    bool unknown = colourBy == 4 && state.y == 255u || colourBy == 5 && forcesKnown == 0 || colourBy == 6 && inFilm == 0u;
+    bool unknown = colourBy == 1 && state.x == 255u || colourBy == 4 && state.y == 255u || colourBy == 5 && forcesKnown == 0 || colourBy == 6 && inFilm == 0u;
     if (unknown) return vec3(0.6); // at this moment
     float value = colourBy == 1 ? float(max(int(state.x) - 1, 0)) / 253.0
                 : colourBy == 2 ? startHeight
@@ -52,7 +52,7 @@ void main() {
     isChosen = gl_InstanceID == chosen ? 1 : 0;
     if (isChosen == 1) isGhost = 0;
     float distance = length(centre);
-    bool gone = state == uvec2(255u) || ofSpecies.a < 0.25 || dot(slice.xyz, now) > slice.w;
+    bool gone = state == uvec2(255u, 254u) || ofSpecies.a < 0.25 || dot(slice.xyz, now) > slice.w;
     if (gone || distance <= 1.001 * radius) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "engine/base/error.hpp"
@@ -69,6 +68,7 @@ const Shot& ShownGrains::of(const Shot& frame) {
     keep(shown_.id, kept_);
     keep(shown_.species, kept_);
     keep(shown_.radius, kept_);
+    keep(shown_.mass, kept_);
     keep(shown_.position, kept_);
     keep(shown_.velocity, kept_);
     keep(shown_.spin, kept_);
@@ -86,8 +86,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // J: the energy of translation and of rotation, with the moment of inertia 2/5 m r2 of a solid sphere.
 double kinetic_energy(const State& frame, std::size_t i, double density) {
     const double r = frame.radius[i];
-    const double mass = density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
-    return 0.5 * mass * (frame.velocity[i].squaredNorm() + 0.4 * r * r * frame.spin[i].squaredNorm());
+    return 0.5 * mass_of(frame, i, density) *
+           (frame.velocity[i].squaredNorm() + 0.4 * r * r * frame.spin[i].squaredNorm());
 }
 
 }  // namespace

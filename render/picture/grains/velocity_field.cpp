@@ -40,12 +40,13 @@ FieldState field_state_of(const FilmedScene& scene, const Shot& frame, bool peri
     const Vec3 way = way_of_container(scene, frame);
     const double frequency = period ? periods_a_second(scene, frame) : 0;
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        if (period && frame.displacement[i].hasNaN()) continue;
+        const Vec3 velocity = period ? Vec3(frequency * frame.displacement[i]) : frame.velocity[i];
+        if (velocity.hasNaN()) continue;
         const double volume = 4.0 / 3 * pi * std::pow(frame.radius[i], 3);
         const double density = scene.species[frame.species[i]].density;
-        state.grains.push_back({frame.position[i] - way,
-                                period ? Vec3(frequency * frame.displacement[i]) : frame.velocity[i],
-                                density * volume, volume, frame.species[i], frame.radius[i]});
+        const double mass = frame.mass.empty() ? density * volume : frame.mass[i];
+        state.grains.push_back(
+            {frame.position[i] - way, velocity, mass, volume, frame.species[i], frame.radius[i]});
     }
     return state;
 }

@@ -41,7 +41,8 @@ void FieldLayer::gather(const Shot& frame) {
     for (std::size_t i = 0; i < frame.size(); ++i) {
         if (std::isnan(values[i])) continue;
         const double volume = 4.0 / 3 * std::numbers::pi * std::pow(frame.radius[i], 3);
-        const double mass = volume * scene_.species[frame.species[i]].density;
+        const double mass =
+            frame.mass.empty() ? volume * scene_.species[frame.species[i]].density : frame.mass[i];
         for (const CellWeight& cell : footprint_.of_point(frame.position[i] - way)) {
             const auto c = static_cast<std::size_t>(cell.cell);
             solid_[c] += cell.weight * volume;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <cstdlib>
 #include <fstream>
@@ -307,6 +308,14 @@ TEST_F(FollowedJob, EachVerbSaysWhyTheRunIsShort) {
         EXPECT_EQ(ended.status, 0) << ended.err;
         EXPECT_THAT(ended.err, tells({"LAMMPS", "signal", "Ctrl-C", "0.05 s of"}));
     }
+}
+
+// Nobody waits for a pipe that has the name of a file of the job.
+TEST_F(FollowedJob, APipeInTheFolderIsNotWaitedFor) {
+    add(0, 6);
+    for (const char* file : {"job/job.status", "job/out.lammps", "job/log.lammps"})
+        ASSERT_EQ(::mkfifo((here / file).c_str(), 0600), 0);
+    EXPECT_EQ(program({"inspect", "job"}).status, 0);
 }
 
 // Commands that are printed can be pasted, whatever the folder is called.

@@ -51,6 +51,29 @@ TEST_F(ForeignAnswers, AreOfTheFrameThatIsAskedFor) {
     EXPECT_NEAR(grains["rows"][0][4].get<double>(), 0.015 + 0.002, 1e-12);  // z of the upper layer
 }
 
+// A grain whose velocity is no number is in no count, whatever is asked, unless the rest of the condition
+// decides.
+TEST_F(ForeignAnswers, CountNoGrainWhoseValueIsUnknown) {
+    write_text(here / "a.csv",
+               "time,id,x,y,z,radius,mass,vx,vy,vz\n0,1,0,0,0,0.1,2,0,0,1\n0,2,1,0,0,0.1,2,0,0,nan\n"
+               "0,3,2,0,0,0.1,8,0,0,3\n");
+    const auto count = [&](const char* condition) {
+        return answer({"inspect", "a.csv", "--where", condition})["tables"]["count"]["rows"][0][1].get<int>();
+    };
+    EXPECT_EQ(count("speed < 2 m/s"), 1);
+    EXPECT_EQ(count("not (speed < 2 m/s)"), 1);
+    EXPECT_EQ(count("speed != 1 m/s"), 1);
+    EXPECT_EQ(count("max(speed, 5 m/s) > 4 m/s"), 2);
+    EXPECT_EQ(count("speed < 2 m/s or id == 2"), 2);
+    EXPECT_EQ(count("not (speed < 2 m/s and id == 3)"), 3);
+    const nlohmann::json all = answer({"inspect", "a.csv"});
+    const nlohmann::json& species = all["tables"]["species"]["rows"][0];
+    EXPECT_DOUBLE_EQ(species[2].get<double>(), 12);  // mass of each grain
+    EXPECT_DOUBLE_EQ(species[7].get<double>(), 2);   // mean speed of the two that are known
+    EXPECT_TRUE(species[8].is_null());               // kinetic energy of all
+    EXPECT_THAT(all["notes"].dump(), HasSubstr("velocity that is not known: 1 grain"));
+}
+
 // A dump has only places. Columns that need velocities or spins are left out of tables, and refused if a
 // question asks for them.
 TEST_F(ForeignAnswers, SayNothingOfVelocitiesThatAFileDoesNotHave) {

@@ -57,6 +57,8 @@ TEST_F(Crushed, IsToldWithGrainAndTime) {
     const std::string warning = record()["warnings"].dump();
     EXPECT_THAT(warning, testing::HasSubstr("grain 0 (ball)"));
     EXPECT_THAT(text_of(here / "run/report.html"), testing::HasSubstr("of the smaller radius at "));
+    EXPECT_THAT(run_program({"inspect", "run", "--largest-overlap"}, setting).out,
+                tells({"beyond the limit", "\"press\" moves"}));
     // The run may go on; then it is told of the whole run.
     const Ended resumed = run_program({"resume", "run", "--until", "0.0133 s", "--no-report"}, setting);
     ASSERT_EQ(resumed.status, 0) << resumed.err;

@@ -250,5 +250,37 @@ TEST_F(MeshStart, ExitsAreRegionsOfTheSurroundings) {
         for (const double side : {-1.0, 1.0}) EXPECT_TRUE(leaves(other, 1.01 * side * Vec3::Unit(axis)));
 }
 
+// The gap below the plate is lower than a large grain. Growth would not push such a grain out.
+TEST_F(MeshStart, LayersLeaveOutGapsThatAreTooNarrow) {
+    write("plate.stl", box_of_triangles(Vec3(-0.002, -0.012, 0.004), Vec3(0.002, 0.012, 0.02)));
+    for (const int seed : {1, 2, 3, 4}) {
+        Scene scene = read(test::SmallScene()
+                               .beads(10, "small", "3 mm", "2.5 g/cm3")
+                               .beads(8, "big", "6 mm", "2.5 g/cm3")
+                               .contacts("0.6", "0.4")
+                               .lasts("0.01 s")
+                               .more("threads = 1\n")
+                               .text() +
+                           R"([container]
+shape = "box"
+width = "36 mm"
+depth = "30 mm"
+height = "60 mm"
+[[mesh]]
+name = "plate"
+file = "plate.stl"
+)");
+        scene.run.seed = static_cast<std::uint64_t>(seed);
+        const Grains grains = place_in_layers(scene);
+        for (std::size_t i = 0; i < grains.size(); ++i) {
+            const Vec3& at = grains.place[i].position;
+            const bool below = std::abs(at.x()) < 0.002 && std::abs(at.y()) < 0.012 && at.z() < 0.004;
+            EXPECT_FALSE(grains.species[i] == 1 && below) << seed << " " << at.transpose();
+        }
+        SimulatedBed run(scene, make_plan(scene), 1);
+        EXPECT_NO_THROW(run.pack()) << seed;
+    }
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -191,7 +191,8 @@ class MercuryRestart : public RawFile {
     LineReader lines_;
     TextLine line_;  // the present line
     Part part_ = Part::head;
-    std::int64_t grains_left_ = 0;
+    std::int64_t grains_left_ = 0, no_spheres_ = 0;
+    std::string grain_word_;       // the first word of the last grain's line
     std::size_t next_column_ = 0;  // next column of the present grain
     bool grains_seen_ = false;
     std::vector<double> densities_;        // by species
@@ -239,7 +240,15 @@ bool MercuryRestart::begins_part(std::string_view line) {
 }
 
 void MercuryRestart::take_line(std::string_view text) {
-    if (part_ == Part::rest || (part_ == Part::grains && grains_left_ == 0)) return;
+    if (part_ == Part::rest) return;
+    if (part_ == Part::grains && grains_left_ == 0) {
+        if (frame_.grains.rows > 0 && RestartLine(text).first_word() == grain_word_)
+            fault(
+                fmt::format("a grain stands behind the {} that the line Particles counts; is that line "
+                            "right?",
+                            frame_.grains.rows));
+        return;
+    }
     if (part_ == Part::grains && !line_.ended)
         fault("the file ends within a grain; was it copied or written to the end?");
     const RestartLine line(text);
@@ -348,6 +357,8 @@ void MercuryRestart::take_plain_grain(const std::vector<double>& numbers) {
 void MercuryRestart::take_grain(const RestartLine& line) {
     --grains_left_;
     next_column_ = 0;
+    grain_word_ = line.first_word();
+    if (grain_word_.find("SuperQuadric") != std::string::npos) ++no_spheres_;
     if (!line.find("position", 3)) {
         take_plain_grain(line.first_numbers());
     } else {
@@ -371,6 +382,11 @@ void MercuryRestart::finish() {
         grains.columns.push_back(std::move(density));
     }
     frame_.box = box_;
+    if (no_spheres_ > 0)
+        news_.push_back(
+            fmt::format("{}: has grains that are no spheres ({} superquadrics); they are drawn as "
+                        "spheres",
+                        file_.string(), no_spheres_));
     for (const auto& [kind, count] : left_out_)
         news_.push_back(fmt::format("{}: {} wall{} of the kind {} cannot be drawn and {} left out",
                                     file_.string(), count, count == 1 ? "" : "s", kind,

@@ -196,7 +196,10 @@ bool NumberTable::take_row() {
         if (time_) moment.time = last_ * time_unit_;
         if (step_) {
             const double step = clock_of(*step_);
-            if (std::abs(step) < 9e18) moment.step = static_cast<std::int64_t>(std::llround(step));
+            if (!(std::abs(step) < 9e18))
+                fault(fmt::format("column {} ({}) has {}, which is no step of a run", *step_ + 1,
+                                  layout_.names[*step_], in_quotes(cells_[*step_].text)));
+            moment.step = static_cast<std::int64_t>(std::llround(step));
         }
     }
     ++moment.grains;

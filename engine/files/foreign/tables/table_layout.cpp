@@ -178,35 +178,35 @@ void add_units(TableLayout& layout, const Cells& cells) {
     }
 }
 
-// Whether a column with that name must hold only numbers.
+// Whether a column with that name must hold only numbers: it has a meaning, and is not that of types.
 bool must_be_numbers(const std::string& name) {
     const std::string bare = bare_name(name);
-    for (const std::string meaning : {"x", "y", "z", "vx", "vy", "vz", "radius", "diameter"})
+    for (const std::string& meaning : all_meanings())
         for (const std::string& known : names_of(meaning))
-            if (bare == known) return true;
+            if (meaning != "type" && bare == known) return true;
     return false;
 }
 
-// Finds out for each column whether it holds words. A column of places, velocities or radii counts as one of
-// words only if at least half of its cells are words; otherwise a word there is a mistake in its row. Returns
-// none where a row has another number of cells than the others.
+// Finds out for each column whether it holds words. A column that must hold numbers counts as one of words
+// only if at least half of its filled cells are words; otherwise a word there is a mistake in its row.
+// Returns none where a row has another number of cells than the others.
 std::optional<std::vector<bool>> words_in(const Sample& sample, std::size_t first, const TableLayout& layout,
                                           bool last_may_be_cut) {
     const std::size_t columns = layout.names.size();
-    std::vector<std::size_t> words(columns, 0);
-    std::size_t rows = 0;
+    std::vector<std::size_t> words(columns, 0), filled(columns, 0);
     Cells cells;
     for (std::size_t i = first; i < sample.filled.size(); ++i) {
         split_cells(sample.filled[i], layout.form, cells);
         if (cells.size() < columns && last_may_be_cut && i + 1 == sample.filled.size() && i > first) break;
         if (cells.size() != columns) return std::nullopt;
-        for (std::size_t k = 0; k < columns; ++k)
+        for (std::size_t k = 0; k < columns; ++k) {
             words[k] += !cell_number(cells[k].text, layout.decimal_comma);
-        ++rows;
+            filled[k] += !cells[k].text.empty();
+        }
     }
     std::vector<bool> is_word(columns);
     for (std::size_t k = 0; k < columns; ++k)
-        is_word[k] = words[k] > 0 && (2 * words[k] >= rows || !must_be_numbers(layout.names[k]));
+        is_word[k] = words[k] > 0 && (2 * words[k] >= filled[k] || !must_be_numbers(layout.names[k]));
     return is_word;
 }
 

@@ -155,29 +155,29 @@ void LegacyText::read_words(std::uint64_t count, bool finite, std::vector<T>& va
     while (values.size() < count) {
         const std::string_view text = whole_words();
         if (text.empty()) refuse_end(values.size(), count);
-        VtkWords words(text.data(), text.data() + text.size());
+        WordReader words(text);
         const std::uint64_t begin = at_;
         const auto mark = [&](const char* byte) {
             last_ = begin + static_cast<std::uint64_t>(byte - text.data());
         };
-        while (values.size() < count && !words.at_end()) {
-            const char* const from = words.at();
-            double value = 0;
-            if (!words.number(value)) {
+        while (values.size() < count && words.has_word()) {
+            const char* const from = words.left().data();
+            const std::optional<double> value = words.next_number();
+            if (!value) {
                 mark(from);
-                refuse(fmt::format("\"{}\" after {} of {} numbers; {}", excerpt(words.word()), values.size(),
+                refuse(fmt::format("\"{}\" after {} of {} numbers; {}", excerpt(words.next()), values.size(),
                                    count, kWriteAgain));
             }
-            if (finite && !std::isfinite(value)) {
+            if (finite && !std::isfinite(*value)) {
                 mark(from);
                 refuse("a place that is no number; remove the point or write its place");
             }
             if constexpr (std::is_integral_v<T>)
-                values.push_back(std::abs(value) < 9e15 ? static_cast<T>(value) : T(-1));
+                values.push_back(std::abs(*value) < 9e15 ? static_cast<T>(*value) : T(-1));
             else
-                values.push_back(value);
+                values.push_back(*value);
         }
-        at_ = begin + static_cast<std::uint64_t>(words.at() - text.data());
+        at_ = begin + static_cast<std::uint64_t>(words.left().data() - text.data());
     }
 }
 
@@ -207,17 +207,17 @@ void LegacyText::skip(VtkType type, std::uint64_t count) {
     for (std::uint64_t i = 0; i < count;) {
         const std::string_view text = whole_words();
         if (text.empty()) refuse_end(i, count);
-        VtkWords words(text.data(), text.data() + text.size());
+        WordReader words(text);
         const std::uint64_t begin = at_;
-        for (; i < count && !words.at_end(); ++i) {
-            const std::string_view next = words.word();
+        for (; i < count && words.has_word(); ++i) {
+            const std::string_view next = words.next();
             // "nan" and "inf" are numbers too.
             if (!is_letter(next[0]) || std::string_view("nNiI").find(next[0]) != std::string_view::npos)
                 continue;
             last_ = begin + static_cast<std::uint64_t>(next.data() - text.data());
             refuse(fmt::format("\"{}\" after {} of {} numbers; {}", excerpt(next), i, count, kWriteAgain));
         }
-        at_ = begin + static_cast<std::uint64_t>(words.at() - text.data());
+        at_ = begin + static_cast<std::uint64_t>(words.left().data() - text.data());
     }
 }
 

@@ -141,12 +141,10 @@ void find_entries(const fs::path& file, const XmlElement& element, std::vector<E
         entry.name = child.has("name") ? child.attribute("name") : child.attribute("group");
         if (entry.file.empty()) refuse_vtk_line(file, child.line, "a DataSet without a file");
         const std::string_view time = child.attribute("timestep");
-        VtkWords words(time.data(), time.data() + time.size());
-        double value = 0;
-        if (!words.at_end()) {
-            if (!words.number(value) || !std::isfinite(value))
+        if (WordReader words(time); words.has_word()) {
+            entry.time = words.next_number();
+            if (!entry.time || !std::isfinite(*entry.time))
                 refuse_vtk_line(file, child.line, fmt::format("timestep=\"{}\" is no time", excerpt(time)));
-            entry.time = value;
         }
         entries.push_back(std::move(entry));
     }

@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "engine/base/error.hpp"
-#include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/byte_source.hpp"
@@ -85,10 +82,6 @@ void widen_any(std::string_view bytes, VtkType type, bool big, std::size_t count
     }
 }
 
-constexpr bool is_blank(char c) {
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
 }  // namespace
 
 std::optional<VtkType> vtk_xml_type(std::string_view word) {
@@ -155,56 +148,6 @@ void widen(std::string_view bytes, VtkType type, bool big_endian, std::size_t co
 void widen(std::string_view bytes, VtkType type, bool big_endian, std::size_t count,
            std::vector<std::int64_t>& values) {
     widen_any(bytes, type, big_endian, count, values);
-}
-
-void VtkWords::skip_blanks() {
-    while (at_ < end_ && is_blank(*at_)) ++at_;
-}
-
-bool VtkWords::at_end() {
-    skip_blanks();
-    return at_ == end_;
-}
-
-std::string_view VtkWords::word() {
-    skip_blanks();
-    const char* begin = at_;
-    while (at_ < end_ && !is_blank(*at_)) ++at_;
-    return {begin, static_cast<std::size_t>(at_ - begin)};
-}
-
-bool VtkWords::number(double& value) {
-    skip_blanks();
-    const auto [stop, error] = std::from_chars(at_, end_, value);
-    if (error != std::errc() || (stop != end_ && !is_blank(*stop))) return odd_number(value);
-    at_ = stop;
-    return true;
-}
-
-// Reads less common numbers: "+1.5", 1e-400, 1e400, "1.5d0", "-1.#IND".
-bool VtkWords::odd_number(double& value) {
-    const char* begin = at_;
-    std::string text(word());
-    if (const auto plain = number_in(text)) {
-        value = *plain;
-        return true;
-    }
-    const std::size_t hash = text.find('#');
-    if (hash != std::string::npos && text.find("INF") == std::string::npos &&
-        number_in(text.substr(0, hash))) {
-        value = std::numeric_limits<double>::quiet_NaN();
-        return true;
-    }
-    const std::size_t exponent = text.find_first_of("dD");
-    if (exponent != std::string::npos) {
-        text[exponent] = 'e';
-        if (const auto fortran = number_in(text)) {
-            value = *fortran;
-            return true;
-        }
-    }
-    at_ = begin;
-    return false;
 }
 
 namespace fs = std::filesystem;

@@ -44,27 +44,6 @@ void widen(std::string_view bytes, VtkType type, bool big_endian, std::size_t co
 void widen(std::string_view bytes, VtkType type, bool big_endian, std::size_t count,
            std::vector<std::int64_t>& values);
 
-// Numbers in a text, which blanks and ends of lines separate.
-class VtkWords {
-  public:
-    VtkWords(const char* begin, const char* end) : at_(begin), end_(end) {}
-
-    // Reads a number. False at the end of the text, and where the next word is no number; at() is its place
-    // then. "nan" and "-1.#IND" give NaN, a missing number.
-    bool number(double& value);
-    // The next word, empty at the end.
-    std::string_view word();
-    bool at_end();
-    const char* at() const { return at_; }
-
-  private:
-    void skip_blanks();
-    bool odd_number(double& value);
-
-    const char* at_;
-    const char* end_;
-};
-
 // A place in a file for a message. `array` is the name of the array there; it may be empty.
 struct VtkPlace {
     const std::filesystem::path* file = nullptr;

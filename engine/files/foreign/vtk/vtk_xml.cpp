@@ -44,15 +44,15 @@ bool is_list(std::string_view type) {
 // of words.
 std::vector<std::string> words_of(std::string_view text) {
     std::vector<std::string> all(1);
-    VtkWords numbers(text.data(), text.data() + text.size());
-    for (double value = 0; numbers.number(value);) {
-        if (!(value >= 0 && value < 256)) return {};
-        if (value == 0)
+    WordReader numbers(text);
+    while (const std::optional<double> value = numbers.next_number()) {
+        if (!(*value >= 0 && *value < 256)) return {};
+        if (*value == 0)
             all.emplace_back();
         else
-            all.back() += static_cast<char>(static_cast<unsigned char>(value));
+            all.back() += static_cast<char>(static_cast<unsigned char>(*value));
     }
-    if (!numbers.at_end() || !all.back().empty()) return {};
+    if (numbers.has_word() || !all.back().empty()) return {};
     all.pop_back();
     return all;
 }

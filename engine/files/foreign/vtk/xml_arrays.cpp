@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/base/word_reader.hpp"
 #include "engine/files/foreign/byte_source.hpp"
 
 namespace grainreel {
@@ -116,29 +117,29 @@ constexpr std::uint64_t some_numbers = std::uint64_t{4} << 20;  // for so many, 
 template <class T>
 void XmlArrays::read_words(std::string_view text, std::uint64_t place, const XmlElement& array,
                            std::optional<std::uint64_t> count, bool finite, std::vector<T>& values) const {
-    VtkWords words(text.data(), text.data() + text.size());
+    WordReader words(text);
     const auto line = [&](const char* at) {
         return content_.line_of(place + static_cast<std::uint64_t>(at - text.data()));
     };
-    while (!words.at_end()) {
-        const char* begin = words.at();
-        double value = 0;
-        if (!words.number(value)) {
-            const std::string word = excerpt(words.word());
+    while (words.has_word()) {
+        const char* begin = words.left().data();
+        const std::optional<double> value = words.next_number();
+        if (!value) {
+            const std::string word = excerpt(words.next());
             refuse_vtk({&file(), line(begin), place_of(array).array},
                        fmt::format("\"{}\" is no number; {}", word, kWriteAgain));
         }
-        if (finite && !std::isfinite(value))
+        if (finite && !std::isfinite(*value))
             refuse_vtk_line(file(), line(begin),
                             "a place that is no number; remove the point or write its place");
         if (count && values.size() == *count)
             refuse_vtk(
-                {&file(), line(words.at()), place_of(array).array},
+                {&file(), line(words.left().data()), place_of(array).array},
                 fmt::format("has more numbers than the {} that it must have; {}", *count, kWriteAgain));
         if constexpr (std::is_integral_v<T>)
-            values.push_back(std::abs(value) < 9e15 ? static_cast<T>(value) : T(-1));
+            values.push_back(std::abs(*value) < 9e15 ? static_cast<T>(*value) : T(-1));
         else
-            values.push_back(value);
+            values.push_back(*value);
     }
 }
 

@@ -45,6 +45,9 @@ class Trajectory final : public StateArchive {
     const StoredWorld& world() const override { return world_; }
     StateSupply supply() const override {
         StateSupply supply;
+        supply.velocities = reader_.info().velocities;
+        supply.spins = reader_.info().spins;
+        supply.masses = reader_.info().masses;
         supply.orientations = reader_.info().orientation;
         supply.contact_numbers = reader_.info().contact_numbers;
         return supply;

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -87,9 +86,8 @@ class Gsd final : public StateWriter {
                 place.push_back(static_cast<float>(frame.position[i][axis] - shift[axis]));
                 velocity.push_back(static_cast<float>(frame.velocity[i][axis]));
             }
-            const double radius = frame.radius[i], density = density_of(type[i]);
-            diameter.push_back(static_cast<float>(2 * radius));
-            mass.push_back(static_cast<float>(density * 4 / 3 * std::numbers::pi * radius * radius * radius));
+            diameter.push_back(static_cast<float>(2 * frame.radius[i]));
+            mass.push_back(static_cast<float>(mass_of(frame, i, density_of(type[i]))));
             if (frame.orientation.empty()) continue;
             const Quaternion& q = frame.orientation[i];
             for (const double part : {q.w(), q.x(), q.y(), q.z()}) turned.push_back(static_cast<float>(part));

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/files/frames/state_writer.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -23,12 +25,16 @@ class LammpsData final : public StateWriter {
   public:
     explicit LammpsData(const std::filesystem::path& path) : path_(path) {}
 
-    void begin(const StoredWorld& world, const StateSupply&) override { world_ = world; }
+    void begin(const StoredWorld& world, const StateSupply& supply) override {
+        world_ = world;
+        supply_ = supply;
+    }
     void cell(const std::optional<WorldCell>& now) override { world_.cell = now; }
     void frame(const State& frame, const std::vector<Link>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame to make a data file of");
         const State& frame = *last_;
+        refuse_unknown_motion(path_, frame);
         TextPieces out(path_);
         std::string& text = out.text();
         const WorldCell box = box_of(world_, frame);
@@ -49,7 +55,7 @@ class LammpsData final : public StateWriter {
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3 x = inside(frame.position[i], box);
             text += fmt::format("{} {} {} {} {} {} {}\n", frame.id[i] + shift, frame.species[i] + 1,
-                                2 * frame.radius[i], density(frame.species[i]), x.x(), x.y(), x.z());
+                                2 * frame.radius[i], density(frame, i), x.x(), x.y(), x.z());
             out.pass();
         }
         text += "\nVelocities\n\n";
@@ -61,6 +67,7 @@ class LammpsData final : public StateWriter {
         }
         out.flush();
     }
+    std::vector<std::string> news() const override { return news_of_rest(path_, supply_); }
 
   private:
     // The place moved into the box along periodic axes, because read_data refuses atoms outside a box.
@@ -73,14 +80,17 @@ class LammpsData final : public StateWriter {
         }
         return place;
     }
-    double density(std::int32_t species) const {
-        const auto s = static_cast<std::size_t>(species);
+    double density(const State& frame, std::size_t grain) const {
+        if (!frame.mass.empty())
+            return frame.mass[grain] / (4.0 / 3 * std::numbers::pi * math::cube(frame.radius[grain]));
+        const auto s = static_cast<std::size_t>(frame.species[grain]);
         return s < world_.species.size() && world_.species[s].density > 0 ? world_.species[s].density
                                                                           : kGlassDensity;
     }
 
     std::filesystem::path path_;
     StoredWorld world_;
+    StateSupply supply_;
     std::optional<State> last_;
 };
 
@@ -103,15 +113,18 @@ class LammpsDump final : public StateWriter {
         text += fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\n", frame.step, frame.size());
         write_box(box, text);
         text += "ITEM: ATOMS id type x y z radius";
-        if (supply_.velocities) text += " vx vy vz omegax omegay omegaz";
+        if (supply_.velocities) text += " vx vy vz";
+        if (supply_.spins) text += " omegax omegay omegaz";
+        if (supply_.masses) text += " mass";
         if (!frame.orientation.empty()) text += " quati quatj quatk quatw";
         text += '\n';
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
             text += fmt::format("{} {} {} {} {} {}", frame.id[i] + shift, frame.species[i] + 1, x.x(), x.y(),
                                 x.z(), frame.radius[i]);
-            if (supply_.velocities)
-                text += fmt::format(" {} {} {} {} {} {}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+            if (supply_.velocities) text += fmt::format(" {} {} {}", v.x(), v.y(), v.z());
+            if (supply_.spins) text += fmt::format(" {} {} {}", w.x(), w.y(), w.z());
+            if (supply_.masses) text += fmt::format(" {}", frame.mass[i]);
             if (!frame.orientation.empty()) {
                 const Quaternion& q = frame.orientation[i];
                 text += fmt::format(" {} {} {} {}", q.x(), q.y(), q.z(), q.w());

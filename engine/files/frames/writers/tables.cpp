@@ -24,7 +24,9 @@ class Csv final : public StateWriter {
         if (world.steps_known) out_.text() += "step,";
         if (!world.time_known && !world.steps_known) out_.text() += "frame,";
         out_.text() += "id,type,species,x,y,z,radius";
-        if (supply.velocities) out_.text() += ",vx,vy,vz,wx,wy,wz";
+        if (supply.velocities) out_.text() += ",vx,vy,vz";
+        if (supply.spins) out_.text() += ",wx,wy,wz";
+        if (supply.masses) out_.text() += ",mass";
         if (supply.contact_numbers) out_.text() += ",contact_number";
         out_.text() += '\n';
     }
@@ -38,8 +40,9 @@ class Csv final : public StateWriter {
             text += fmt::format("{},{},{},{},{},{},{}", frame.id[i], s + 1,
                                 s < world_.species.size() ? one_word(world_.species[s].name) : "", x.x(),
                                 x.y(), x.z(), frame.radius[i]);
-            if (supply_.velocities)
-                text += fmt::format(",{},{},{},{},{},{}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+            if (supply_.velocities) text += fmt::format(",{},{},{}", v.x(), v.y(), v.z());
+            if (supply_.spins) text += fmt::format(",{},{},{}", w.x(), w.y(), w.z());
+            if (supply_.masses) text += fmt::format(",{}", frame.mass[i]);
             if (supply_.contact_numbers)
                 text += fmt::format(",{}", i < frame.contact_number.size() ? frame.contact_number[i] : 0);
             text += '\n';
@@ -59,15 +62,18 @@ class GrainTable final : public StateWriter {
   public:
     explicit GrainTable(std::filesystem::path path) : path_(std::move(path)) {}
 
-    void begin(const StoredWorld&, const StateSupply&) override {}
+    void begin(const StoredWorld&, const StateSupply& supply) override { supply_ = supply; }
     void frame(const State& frame, const std::vector<Link>&) override { last_ = frame; }
     void end() override {
         if (!last_) throw RunError(path_.string() + ": there is no frame to make a table of");
+        refuse_unknown_motion(path_, *last_);
         write_grain_table(path_, *last_);
     }
+    std::vector<std::string> news() const override { return news_of_rest(path_, supply_); }
 
   private:
     std::filesystem::path path_;
+    StateSupply supply_;
     std::optional<State> last_;
 };
 
@@ -90,17 +96,19 @@ class Xyz final : public StateWriter {
         const auto flag = [&](std::size_t axis) { return box.periodic[axis] ? 'T' : 'F'; };
         text += fmt::format(
             "{}\nLattice=\"{} {} {}\" Origin=\"{}\" pbc=\"{} {} {}\" "
-            "Properties=element:S:1:pos:R:3:radius:R:1{}:id:I:1{}{}\n",
+            "Properties=element:S:1:pos:R:3:radius:R:1{}{}{}:id:I:1{}{}\n",
             frame.size(), edge(box.edges[0]), edge(box.edges[1]), edge(box.edges[2]), edge(box.origin),
-            flag(0), flag(1), flag(2), supply_.velocities ? ":velo:R:3:omega:R:3" : "",
+            flag(0), flag(1), flag(2), supply_.velocities ? ":velo:R:3" : "",
+            supply_.spins ? ":omega:R:3" : "", supply_.masses ? ":mass:R:1" : "",
             world_.steps_known ? fmt::format(" Step={}", frame.step) : "",
             world_.time_known ? fmt::format(" Time={}", frame.time) : "");
         for (std::size_t i = 0; i < frame.size(); ++i) {
             const Vec3 &x = frame.position[i], &v = frame.velocity[i], &w = frame.spin[i];
             text +=
                 fmt::format("{} {} {} {} {}", name(frame.species[i]), x.x(), x.y(), x.z(), frame.radius[i]);
-            if (supply_.velocities)
-                text += fmt::format(" {} {} {} {} {} {}", v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+            if (supply_.velocities) text += fmt::format(" {} {} {}", v.x(), v.y(), v.z());
+            if (supply_.spins) text += fmt::format(" {} {} {}", w.x(), w.y(), w.z());
+            if (supply_.masses) text += fmt::format(" {}", frame.mass[i]);
             text += fmt::format(" {}\n", frame.id[i]);
             out_.pass();
         }

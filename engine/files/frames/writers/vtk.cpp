@@ -44,10 +44,9 @@ VtkPolyData grains_of(const State& frame, const StoredWorld& world, const StateS
     }
     data.point_data = {VtkList::doubles("radius", radius), VtkList::integers("id", id),
                        VtkList::integers("type", type)};
-    if (supply.velocities) {
-        data.point_data.push_back(VtkList::doubles("velocity", velocity, 3));
-        data.point_data.push_back(VtkList::doubles("omega", spin, 3));
-    }
+    if (supply.velocities) data.point_data.push_back(VtkList::doubles("velocity", velocity, 3));
+    if (supply.spins) data.point_data.push_back(VtkList::doubles("omega", spin, 3));
+    if (supply.masses) data.point_data.push_back(VtkList::doubles("mass", frame.mass));
     if (supply.contact_numbers) {
         contacts.resize(frame.size(), -1);
         data.point_data.push_back(VtkList::integers("contact_number", contacts));
