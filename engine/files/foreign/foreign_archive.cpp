@@ -25,8 +25,35 @@ ForeignArchive::ForeignArchive(const fs::path& path, const ReadingOptions& optio
     read_walls();
     make_world();
     match_walls();
-    for (std::size_t w = 0; w < walls_.size(); ++w) world_.bodies[kFirstPlaneBody + w].mesh = walls_[w].shape;
+    name_walls();
     decide_velocities();
+}
+
+bool ForeignArchive::grow() {
+    behind_ = grains_->grow(files_now(grains_->files())) || behind_;
+    if (contacts_)
+        behind_ =
+            contacts_->grow(options_.contacts.empty() ? files_now(contacts_->files()) : contact_files()) ||
+            behind_;
+    if (!behind_) return false;
+    const std::vector<std::string> news = news_;  // what was told once is not told again
+    const bool had_contacts = has_contacts_, had_pairs = moments_.size() > 1;
+    for (auto& frame : last_) frame.reset();
+    list_moments();
+    count_grains();
+    survey_contacts();
+    if (has_contacts_ && !had_contacts) check_contact_columns();
+    if (options_.walls.empty())
+        for (std::vector<fs::path>& files : wall_files_) files = files_now(files);
+    else
+        find_walls();
+    if (walls_come()) read_walls();
+    match_walls();
+    name_walls();
+    if (!had_pairs) decide_velocities();
+    news_ = news;
+    behind_ = false;
+    return true;
 }
 
 namespace {
@@ -48,6 +75,8 @@ void check_time_step(double step, const std::vector<double>& times) {
 // Makes the moments, in each of which the time is the step times a constant length. If the files' steps and
 // times do not fit this, steps are counted in ticks of a millionth of the shortest interval.
 void ForeignArchive::list_moments() {
+    moments_.clear();
+    raw_steps_.clear();
     const std::vector<RawMoment>& raw = grains_->moments();
     const UnitSystem units = [&] {
         UnitSystem system;
@@ -182,8 +211,7 @@ void ForeignArchive::survey() {
     world_.first_id = 1;  // until a grain has the id 0
     for (const std::size_t k : looks())
         if (look_at(k) && looks_ == Looks::first) break;
-    for (const RawMoment& moment : grains_->moments())
-        world_.most_grains = std::max(world_.most_grains, static_cast<std::size_t>(moment.grains));
+    count_grains();
     for (const auto& [word, name] : options_.species) types_.add(word);
     if (!meaning_) {
         // No frame has a grain, so the columns get the meaning of an empty table.
@@ -205,7 +233,15 @@ void ForeignArchive::survey() {
     if (has_contacts_) check_contact_columns();
 }
 
+void ForeignArchive::count_grains() {
+    for (const RawMoment& moment : grains_->moments()) {
+        world_.most_grains = std::max(world_.most_grains, static_cast<std::size_t>(moment.grains));
+        world_.traffic = world_.traffic || moment.grains != grains_->moments().front().grains;
+    }
+}
+
 void ForeignArchive::survey_contacts() {
+    contacts_at_.clear();
     const std::size_t frames = moments_.size();
     for (std::size_t k = 0; k < frames && !has_contacts_; ++k)
         has_contacts_ = grains_->moments()[k].has_contacts;
@@ -259,10 +295,12 @@ void ForeignArchive::make_world() {
     world_.title = path_.filename().string();
     world_.program_version = grains_->facts().program;
     make_species();
-    for (const RawMoment& moment : grains_->moments())
-        world_.traffic = world_.traffic || moment.grains != grains_->moments().front().grains;
-    world_.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
     add_box();
+}
+
+// Makes the bodies of the world, which have different names.
+void ForeignArchive::name_walls() {
+    world_.bodies = {{"container", {}, {}}, {"floor", {}, {}}};
     std::set<std::string> names;
     for (MovingWall& wall : walls_) {
         std::string name = wall.name.empty() ? "wall" : wall.name;

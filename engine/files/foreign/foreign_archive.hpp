@@ -85,6 +85,14 @@ class ForeignArchive final : public StateArchive {
     std::vector<std::string> news() const override { return news_; }
     std::vector<std::string> news_of_frames() const override;
 
+    // Looks for moments that were written since. Returns whether there is anything new; then the walls may be
+    // others, and where steps and times depend on all moments, these too. Throws as RawSeries::grow() does.
+    bool grow();
+    // The number of moments to which nothing more can come. The last one may still be written.
+    std::size_t whole_moments() const {
+        return moments_.size() - (moments_.empty() || !grains_->moments().back().open ? 0 : 1);
+    }
+
     // Adds the types of a frame, and of those beside it that its velocities come from, to the species of the
     // world. Returns whether any is new; then species that follow it have other numbers than before.
     bool take_types(std::size_t index);
@@ -98,8 +106,8 @@ class ForeignArchive final : public StateArchive {
     // The numbers of a wall's triangles at a moment, a row for each triangle; null where there are none.
     const RawTable* wall_cells(std::size_t index, std::size_t wall) const;
     const UnitSystem& units() const { return meaning_->units(); }
-    // All files that were read.
-    const std::vector<std::filesystem::path>& files() const { return all_files_; }
+    // Whether there may be more to the walls with each moment.
+    bool walls_come() const;
     // The name of the format: "LAMMPS text dump".
     const std::string& format() const { return grains_->facts().format; }
     // Whether State::step is the step of the files in all moments.
@@ -113,15 +121,21 @@ class ForeignArchive final : public StateArchive {
     void choose_files();
     void choose_from(const std::vector<std::filesystem::path>& files);
     void add_companions(const std::filesystem::path& file);
+    std::vector<std::filesystem::path> contact_files() const;
+    void find_walls();
+    std::vector<std::filesystem::path> files_now(const std::vector<std::filesystem::path>& known) const;
+    bool in_frames() const;
     void list_moments();
     void check_clock(const std::vector<double>& times) const;
     void survey();
     std::vector<std::size_t> looks() const;
     bool look_at(std::size_t index);
+    void count_grains();
     void survey_contacts();
     void check_contact_columns();
     void make_world();
     void make_species();
+    void name_walls();
     void read_walls();
     void add_box();
     void match_walls();
@@ -138,7 +152,6 @@ class ForeignArchive final : public StateArchive {
     // The second is null where the grains' files have the contacts, or there are none.
     std::unique_ptr<RawSeries> grains_, contacts_;
     std::vector<std::vector<std::filesystem::path>> wall_files_;
-    std::vector<std::filesystem::path> all_files_;
     std::optional<GrainMeaning> meaning_;
     TypeList types_;
     StoredWorld world_;
@@ -149,6 +162,8 @@ class ForeignArchive final : public StateArchive {
     std::vector<WallMoment> wall_moments_;
     std::vector<std::vector<std::size_t>> wall_at_;  // for each moment and wall: the number of its pose
     bool has_contacts_ = false, derived_ = false;
+    bool alone_ = false;   // whether a file is read without those of the same kind of name
+    bool behind_ = false;  // whether the files have grown and this object has not
     std::size_t first_with_grains_ = 0;
     std::vector<std::string> news_;
     mutable std::map<std::size_t, Gaps> gaps_;  // by the number of the frame; only where there are some

@@ -96,7 +96,8 @@ void ForeignArchive::choose_files() {
     } else {
         const FileGroup series = series_of(path_);
         const bool runs = !options_.one && are_different_runs(series);
-        if (options_.one || runs || series.files.size() == 1) {
+        alone_ = options_.one || runs;
+        if (alone_ || series.files.size() == 1) {
             grains_ = std::make_unique<RawSeries>(std::vector<fs::path>{path_});
             if (runs)
                 news_.push_back(
@@ -114,18 +115,36 @@ void ForeignArchive::choose_files() {
         }
         add_companions(path_);
     }
-    if (!options_.contacts.empty()) {
-        std::vector<fs::path> files;
-        for (const std::string& name : options_.contacts)
-            for (fs::path& file : files_named(name)) files.push_back(std::move(file));
-        contacts_ =
-            std::make_unique<RawSeries>(grouped(files).size() == 1 ? grouped(files).front().files : files);
-    }
+    if (!options_.contacts.empty()) contacts_ = std::make_unique<RawSeries>(contact_files());
+    if (!options_.walls.empty()) find_walls();
+}
+
+// The files of the contacts that the user names.
+std::vector<fs::path> ForeignArchive::contact_files() const {
+    std::vector<fs::path> files;
+    for (const std::string& name : options_.contacts)
+        for (fs::path& file : files_named(name)) files.push_back(std::move(file));
+    return grouped(files).size() == 1 ? grouped(files).front().files : files;
+}
+
+// Finds the files of the walls that the user names.
+void ForeignArchive::find_walls() {
+    wall_files_.clear();
     for (const std::string& name : options_.walls)
         for (FileGroup& group : grouped(files_named(name))) wall_files_.push_back(std::move(group.files));
-    all_files_ = grains_->files();
-    if (contacts_) all_files_.insert(all_files_.end(), contacts_->files().begin(), contacts_->files().end());
-    for (const auto& files : wall_files_) all_files_.insert(all_files_.end(), files.begin(), files.end());
+}
+
+// The files that a series has by now: all of its group that lie where the path says.
+std::vector<fs::path> ForeignArchive::files_now(const std::vector<fs::path>& known) const {
+    if (alone_) return known;
+    std::error_code ignored;
+    const bool many = is_pattern(path_) || fs::is_directory(path_, ignored);
+    for (FileGroup& group : many ? grouped(files_named(path_.string())) : std::vector{series_of(path_)}) {
+        if (std::find(group.files.begin(), group.files.end(), known.front()) == group.files.end()) continue;
+        const bool more = group.files.size() > known.size();
+        return more && !is_pattern(path_) && are_different_runs(group) ? known : std::move(group.files);
+    }
+    return known;
 }
 
 namespace {
@@ -169,6 +188,9 @@ void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
     if (chosen == nullptr)
         throw UserError(fmt::format("{}: no file there holds grains that can be read; {} were looked at",
                                     path_.string(), files.size()));
+    for (const FileGroup& group : grouped(files))
+        if (std::find(group.files.begin(), group.files.end(), chosen->files.front()) != group.files.end())
+            alone_ = group.files.size() > chosen->files.size();
     grains_ = std::make_unique<RawSeries>(chosen->files);
     for (const FileGroup* other : others)
         if (!share_files(*chosen, *other))

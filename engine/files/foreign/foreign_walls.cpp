@@ -219,27 +219,28 @@ void ForeignArchive::add_box() {
     wall_moments_ = {WallMoment()};
 }
 
+bool ForeignArchive::in_frames() const {
+    return std::any_of(grains_->moments().begin(), grains_->moments().end(),
+                       [](const RawMoment& one) { return one.has_walls; });
+}
+
+bool ForeignArchive::walls_come() const {
+    return in_frames() || std::any_of(wall_files_.begin(), wall_files_.end(),
+                                      [](const auto& files) { return files.size() > 1; });
+}
+
 void ForeignArchive::read_walls() {
     const double unit = options_.walls_scale.value_or(meaning_->units().length);
-    const bool in_frames = std::any_of(grains_->moments().begin(), grains_->moments().end(),
-                                       [](const RawMoment& one) { return one.has_walls; });
-    if (in_frames) {
+    walls_.clear();
+    wall_moments_.clear();
+    if (in_frames()) {
         for (std::size_t k = 0; k < moments_.size(); ++k)
             wall_moments_.push_back({raw_steps_[k], moments_[k].time, raw(k).walls});
         while (!wall_moments_.empty() && wall_moments_.front().walls.empty())
             wall_moments_.erase(wall_moments_.begin());
         walls_ = follow_walls(wall_moments_, unit, path_.string(), news_);
     }
-    if (!in_frames && wall_files_.size() == 1) {
-        const RawSeries series(wall_files_.front());
-        for (std::size_t k = 0; k < series.moments().size(); ++k) {
-            RawFrame frame = series.read(k);
-            wall_moments_.push_back({frame.step, frame.time, std::move(frame.walls)});
-        }
-        walls_ = follow_walls(wall_moments_, unit, wall_files_.front().front().string(), news_);
-        return;
-    }
-    // There are several series. A series of one file stands still, and all others must have the same moments.
+    // A series of one file stands still, and all others must have the same moments.
     for (const std::vector<std::filesystem::path>& files : wall_files_) {
         const RawSeries series(files);
         std::vector<WallMoment> moments;
@@ -266,6 +267,7 @@ void ForeignArchive::rest_at_first(MovingWall& wall, std::size_t first) {
 
 // Finds the pose of each wall at each moment: the last one that is not later, by step or by time.
 void ForeignArchive::match_walls() {
+    wall_at_.clear();
     for (std::size_t k = 0; k < moments_.size(); ++k) {
         std::vector<std::size_t> at;
         for (const MovingWall& wall : walls_) {

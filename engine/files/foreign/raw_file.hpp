@@ -72,6 +72,8 @@ struct RawMoment {
     std::int64_t grains = 0;
     bool has_contacts = false, has_walls = false;
     bool open = false;  // more of it may come: no line ends behind its last row
+
+    bool operator==(const RawMoment&) const = default;
 };
 
 // Facts that hold for the whole file.
@@ -109,6 +111,8 @@ class RawFile {
     // Looks for frames that were written since then. Returns whether moments() has more. Throws UserError if
     // the file was truncated or replaced.
     virtual bool grow() { return false; }
+    // Whether grow() does so. Files of other formats are opened anew.
+    virtual bool grows() const { return false; }
 };
 
 struct RawFormat {

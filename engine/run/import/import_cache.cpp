@@ -271,18 +271,13 @@ std::optional<Imported> kept_import(const fs::path& place, const std::string& na
 // Makes the import in a folder of the process's own and then gives it its name. The first process to finish
 // keeps the name.
 Imported new_import(const fs::path& place, const std::string& name, ImportRequest request) {
-    const fs::path part = place.string() + fmt::format(".{}{}", ::getpid(), kUnfinished);
+    const UnfinishedImport unfinished(place, name);
+    const fs::path part = unfinished.folder().parent_path();
+    request.folder = unfinished.folder();
     std::error_code error;
-    fs::remove_all(part, error);
-    if (const std::string fault = make_own_folder(part); !fault.empty())
-        throw RunError(fmt::format("{}: cannot be made: {}", part.string(), fault));
-    request.folder = part / name;
     try {
         const FilesRead sources;
         Imported run = import_run(request);
-        std::string news;
-        for (const std::string& line : run.news) news += line + "\n";
-        replace_file(request.folder / kImportNews, news);
         write_seal(part, name, sources);
         if (!is_sealed(place, name)) {  // else another process has finished it, and its reader may be at it
             fs::remove_all(place, error);
@@ -290,16 +285,11 @@ Imported new_import(const fs::path& place, const std::string& name, ImportReques
         }
         if (error && !is_sealed(place, name))
             throw RunError(fmt::format("{}: cannot be made: {}", place.string(), error.message()));
-        fs::remove_all(part, error);
         make_room(place.parent_path(), place);
         run.folder = place / name;
         return run;
     } catch (const UserError& mistake) {
-        fs::remove_all(part, error);
         throw UserError(named_as(mistake.what(), request.folder, request.from));
-    } catch (...) {
-        fs::remove_all(part, error);
-        throw;
     }
 }
 
@@ -314,6 +304,30 @@ std::string name_of_import(const fs::path& from) {
 }
 
 }  // namespace
+
+UnfinishedImport::UnfinishedImport(const fs::path& place, const std::string& name) {
+    const fs::path part = place.string() + fmt::format(".{}{}", ::getpid(), kUnfinished);
+    std::error_code ignored;
+    fs::remove_all(part, ignored);
+    if (const std::string fault = make_own_folder(part); !fault.empty())
+        throw RunError(fmt::format("{}: cannot be made: {}", part.string(), fault));
+    folder_ = part / name;
+}
+
+UnfinishedImport::UnfinishedImport(const ImportRequest& request)
+    : UnfinishedImport(
+          (cached_imports().empty() ? own_temporary_imports() : cached_imports()) / key_of(request),
+          name_of_import(request.from)) {}
+
+UnfinishedImport::~UnfinishedImport() {
+    std::error_code ignored;
+    fs::remove_all(folder_.parent_path(), ignored);
+}
+
+void UnfinishedImport::touch() const {
+    std::error_code ignored;
+    fs::last_write_time(folder_.parent_path(), fs::file_time_type::clock::now(), ignored);
+}
 
 std::string named_as(std::string text, const fs::path& folder, const fs::path& from) {
     const std::string path = folder.string();

@@ -1,7 +1,6 @@
 #include "engine/run/import/import_run.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -9,13 +8,12 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/stored_world.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/import/arrival.hpp"
 #include "engine/run/import/import_measures.hpp"
-#include "engine/run/import/import_scene.hpp"
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
@@ -58,55 +56,6 @@ bool differ(const std::optional<WorldCell>& a, const std::optional<WorldCell>& b
     return farthest > room;
 }
 
-// What the files of a run depend on is known only after all frames: which types and sizes there are, and how
-// many ids. So the files are begun for what the first frame says, and if this turns out to be wrong, they are
-// made again for what all frames said. Thus frames are read once, or at most twice.
-class Import {
-  public:
-    explicit Import(const ImportRequest& request)
-        : request_(request),
-          archive_(request.from, request.reading, ForeignArchive::Looks::first),
-          depends_on_box_(!archive_.world().cell && request.reading.container.empty()) {
-        if (archive_.moments().empty())
-            throw UserError(fmt::format("{}: holds no frame", request.from.string()));
-    }
-
-    // Makes the files in the request's folder, which is empty.
-    Imported run();
-
-  private:
-    // The files while they are written.
-    struct Files {
-        Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,
-              std::vector<std::string>& news);
-
-        const ImportWalls walls;
-        const std::string scene_text;
-        const Scene scene;
-        const bool masses;  // whether the grains have masses of their own
-        Arrival arrival;
-        std::optional<ImportWear> wear;
-    };
-
-    ImportSurvey first_guess();
-    void begin(const ImportSurvey& guess, bool may_fail);
-    void drop();
-    ImportSurvey read_all(const ImportSurvey& guess);
-    void take(std::size_t index, State frame);
-    void finish(const ImportSurvey& survey);
-    void tell_of_contacts();
-    void tell_of_box();
-
-    const ImportRequest& request_;
-    ForeignArchive archive_;
-    const bool depends_on_box_;   // whether the header of trajectory.nc depends on the box around the grains
-    std::optional<Files> files_;  // none while what was read does not fit the guess
-    std::int64_t last_step_ = 0;
-    std::optional<WorldCell> first_box_;
-    bool box_changes_ = false;
-    Imported run_;
-};
-
 // Writes scene.toml and reads it. Errors in it come from the files or the options.
 Scene written_and_read(const std::string& text, const ImportRequest& request) {
     const fs::path file = request.folder / "scene.toml";
@@ -140,16 +89,56 @@ ArrivalFacts arrival_facts(const Scene& scene, const ForeignArchive& archive, co
     return facts;
 }
 
+}  // namespace
+
+// The files while they are written.
+struct Import::Files {
+    Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,
+          std::vector<std::string>& news);
+
+    const ImportWalls walls;
+    const std::string scene_text;
+    const Scene scene;
+    const bool masses;  // whether the grains have masses of their own
+    Arrival arrival;
+    std::optional<ImportWear> wear;
+    // What these files can hold.
+    const std::vector<std::string> types;
+    const StateSupply supply;
+    const std::size_t bodies, places;
+};
+
 Import::Files::Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,
                      std::vector<std::string>& news)
     : walls(write_import_walls(request.folder, archive, request.reading, news)),
       scene_text(import_scene_text(archive, survey, request.reading, walls, news)),
       scene(written_and_read(scene_text, request)),
       masses(survey.masses),
-      arrival(request.folder, scene, arrival_facts(scene, archive, survey, request)) {
+      arrival(request.folder, scene, arrival_facts(scene, archive, survey, request)),
+      types(archive.types()),
+      supply(archive.supply()),
+      bodies(archive.world().bodies.size()),
+      places(survey.places) {
     if (!ImportWear::known(archive)) return;
     wear.emplace(request.folder / "fields.nc", scene, archive, request.program_version);
     for (std::string& line : wear->news()) news.push_back(std::move(line));
+}
+
+Import::Import(ImportRequest request, bool at_end)
+    : request_(std::move(request)),
+      archive_(request_.from, request_.reading, ForeignArchive::Looks::first),
+      at_end_(at_end),
+      depends_on_box_(!archive_.world().cell && request_.reading.container.empty()) {
+    if (known() == 0) throw UserError(fmt::format("{}: holds no frame", request_.from.string()));
+    // The first grains say what the columns mean.
+    if (!at_end && archive_.world().most_grains == 0)
+        throw UserError(fmt::format("{}: holds no grain yet", request_.from.string()));
+}
+
+Import::~Import() = default;
+
+std::size_t Import::known() const {
+    return at_end_ ? archive_.moments().size() : archive_.whole_moments();
 }
 
 ImportSurvey Import::first_guess() {
@@ -167,7 +156,7 @@ void Import::begin(const ImportSurvey& guess, bool may_fail) {
     run_.folder = request_.folder;
     run_.news = archive_.news();
     try {
-        files_.emplace(request_, archive_, guess, run_.news);
+        files_ = std::make_unique<Files>(request_, archive_, guess, run_.news);
     } catch (const UserError&) {
         if (!may_fail) throw;
     }
@@ -183,15 +172,15 @@ void Import::drop() {
 
 ImportSurvey Import::read_all(const ImportSurvey& guess) {
     ImportSurvey survey;
-    const std::size_t frames = archive_.moments().size();
-    for (std::size_t k = 0; k < frames; ++k) {
-        if (request_.watcher && !request_.watcher(static_cast<double>(k) / static_cast<double>(frames)))
+    const std::size_t frames = known();
+    for (next_ = 0; next_ < frames; ++next_) {
+        if (request_.watcher && !request_.watcher(static_cast<double>(next_) / static_cast<double>(frames)))
             throw RunError("stopped while frames were read");
-        archive_.take_types(k);
-        State frame = archive_.grains(k);
+        archive_.take_types(next_);
+        State frame = archive_.grains(next_);
         survey.add(frame, archive_.types(), archive_.world());
         if (files_ && !survey.within(guess, depends_on_box_)) drop();
-        if (files_) take(k, std::move(frame));
+        if (files_) take(next_, std::move(frame));
     }
     return survey;
 }
@@ -249,29 +238,81 @@ void Import::finish(const ImportSurvey& survey) {
     tell_of_box();
     files_->arrival.close();
     for (std::string& line : archive_.news_of_frames()) run_.news.push_back(std::move(line));
+    std::string news;
+    for (const std::string& line : run_.news) news += line + "\n";
+    write_import_text(request_.folder / kImportNews, news);
+    ends_ = ends();
 }
 
 Imported Import::run() {
     ImportSurvey guess = first_guess();
     begin(guess, true);
-    ImportSurvey survey = read_all(guess);
-    if (!files_ || !guess.within(survey, depends_on_box_)) {
+    survey_ = read_all(guess);
+    if (!files_ || !guess.within(survey_, depends_on_box_)) {
         drop();
-        guess = std::move(survey);
+        guess = std::move(survey_);
         begin(guess, false);
-        survey = read_all(guess);
+        survey_ = read_all(guess);
         if (!files_)
             throw UserError(fmt::format("{}: changed while it was read; try it again once it is whole",
                                         request_.from.string()));
     }
-    finish(survey);
+    finish(survey_);
     return run_;
 }
 
-}  // namespace
+// Step and time of the first and of the last moment that were taken. All others depend on the same tick.
+std::array<std::pair<std::int64_t, double>, 2> Import::ends() const {
+    const State &first = archive_.moments().front(), &last = archive_.moments().at(next_ - 1);
+    return {{{first.step, first.time}, {last.step, last.time}}};
+}
+
+void Import::grow() {
+    if (!archive_.grow() && files_) return;
+    if (files_ && archive_.world().bodies.size() != files_->bodies)
+        throw RunError(fmt::format("{}: its walls come apart, as they did not before; begin again",
+                                   request_.from.string()));
+    const StateSupply now = archive_.supply();
+    // A single moment does not say how long a step is.
+    const bool same = files_ && next_ > 1 && ends() == ends_ && now.velocities == files_->supply.velocities &&
+                      now.contacts == files_->supply.contacts;
+    if (!same || archive_.walls_come()) begin_again();
+}
+
+// Makes the files again, of the same frames, with room for more grains.
+void Import::begin_again() {
+    drop();
+    ImportSurvey room = survey_;
+    room.places *= 2;
+    try {
+        begin(room, false);
+        for (std::size_t k = 0; k < next_; ++k) take(k, archive_.grains(k));
+        finish(survey_);
+    } catch (...) {
+        drop();  // a part of the frames would pass for all of them
+        throw;
+    }
+}
+
+bool Import::take_next() {
+    if (!files_ || next_ == known()) return false;
+    archive_.take_types(next_);
+    if (archive_.types() != files_->types)
+        throw RunError(
+            fmt::format("{}: has a type that the frames before lacked; name all types by --species",
+                        request_.from.string()));
+    State frame = archive_.grains(next_++);
+    survey_.add(frame, archive_.types(), archive_.world());
+    if (survey_.places > files_->places || (survey_.masses && !files_->masses))
+        begin_again();
+    else
+        take(next_ - 1, std::move(frame));
+    ends_ = ends();
+    return true;
+}
 
 Imported import_run(const ImportRequest& request) {
-    Import import(request);
+    Import import(request, true);
     NewFolder folder(request.folder);
     Imported run = import.run();
     folder.keep();

@@ -108,12 +108,14 @@ std::string mesh_name(const std::string& wanted, const std::vector<std::string>&
 }
 
 // The rows of a file with a wall's motion: the pose at each moment, and more rows between moments so that no
-// rotation from row to row is larger than a radian. Before the first moment the wall stands still.
+// rotation from row to row is larger than a radian and a path has its four rows. Before the first moment the
+// wall stands still.
 std::string path_text(const ForeignArchive& archive, std::size_t wall) {
     constexpr double largest = 1;  // rad
     const std::vector<State>& moments = archive.moments();
     std::string text = "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n";
     const BodyPose first = moments.front().body(kFirstPlaneBody + wall);
+    const int least = moments.size() == 2 ? 3 : moments.size() == 3 ? 2 : 1;  // parts of an interval
     if (moments.front().time > 0) add_row(text, 0, first);
     add_row(text, moments.front().time, first);
     for (std::size_t k = 1; k < moments.size(); ++k) {
@@ -121,7 +123,8 @@ std::string path_text(const ForeignArchive& archive, std::size_t wall) {
                        to = moments[k].body(kFirstPlaneBody + wall);
         const double begin = moments[k - 1].time, end = moments[k].time;
         if (!(end > begin)) continue;
-        const auto parts = static_cast<int>(1 + angle_between(from.rotation, to.rotation) / largest);
+        const int parts =
+            std::max(least, static_cast<int>(1 + angle_between(from.rotation, to.rotation) / largest));
         for (int part = 1; part < parts; ++part) {
             const double share = static_cast<double>(part) / parts;
             BodyPose between;

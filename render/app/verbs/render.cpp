@@ -19,8 +19,7 @@
 #include "render/app/study/members/child.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/run/film_in_parts.hpp"
-#include "render/film/run/follow_job.hpp"
-#include "render/film/run/follow_run.hpp"
+#include "render/film/run/follow_film.hpp"
 #include "render/film/run/redraw_job.hpp"
 #include "render/film/run/still.hpp"
 #include "render/film/sources/stored_shots.hpp"
@@ -112,7 +111,7 @@ class Render final : public Verb {
             check_folder_name(*film_.out);
             RunFolder::check(*film_.out, film_.force);
         }
-        if (follow_) return is_handover(request_.run) ? follow_job(reporter) : follow(reporter);
+        if (follow_) return follow(reporter);
         const RunToRead read = run_to_read(request_.run, reading_, reporter);
         request_.run = read.folder;
         if (read.imported) request_.beside = read.beside;
@@ -140,24 +139,19 @@ class Render final : public Verb {
 
     bool is_still() const { return request_.at || request_.frame; }
 
-    int follow_job(Reporter& reporter) const {
-        if (const std::string option = given_reading(reading_); !option.empty())
+    int follow(Reporter& reporter) const {
+        const bool handed_over = is_handover(request_.run);
+        if (const std::string option = given_reading(reading_); handed_over && !option.empty())
             throw UserError(fmt::format("{}: is for files of other programs, and {} was handed over by us",
                                         option, request_.run.string()));
-        FollowJob film(film_, {request_.run, {}, request_.sets, folder_around(request_.run), idle()},
-                       reporter);
-        keep_camera_file(camera_, film.scene().film.camera);
-        return tell_folder(film.run(), film_);
-    }
-
-    int follow(Reporter& reporter) const {
         std::error_code ignored;
-        if (std::filesystem::exists(request_.run / "scene.toml", ignored))
+        if (!handed_over && std::filesystem::exists(request_.run / "scene.toml", ignored))
             throw UserError(fmt::format(
                 "--follow: is for files of other programs; a run of ours is shown by: {} watch {}",
                 program_call(), shell_word(request_.run.string())));
-        FollowRun film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle()},
-                       reporter);
+        FollowFilm film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle()},
+                        reporter);
+        keep_camera_file(camera_, film.scene().film.camera);
         return tell_folder(film.run(), film_);
     }
 

@@ -50,6 +50,8 @@ class FolderFilm final : public SideWork {
               DrawerMaker draw = {});
     // The film maker, which takes pictures while the film is open.
     FilmMaker& maker() { return *film_; }
+    // Corrects the number of the film's frames, for a film of which not all is known when it is opened.
+    void plan_frames(std::int64_t frames) { frames_planned_ = frames; }
     // Gives the film its next picture, with a caption about how fast it plays, and notes it for
     // film_times.csv. rule: the segment by which it was taken.
     void show(const Taken& picture, const FilmSegment& rule, const Clock& clock);

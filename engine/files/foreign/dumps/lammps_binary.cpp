@@ -66,6 +66,7 @@ class LammpsBinary : public RawFile {
         return news;
     }
 
+    bool grows() const override { return true; }
     bool grow() override {
         if (!growth_.look()) return false;
         const std::size_t had = index_.frames.size();

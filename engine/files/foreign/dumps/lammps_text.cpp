@@ -115,6 +115,7 @@ class LammpsText : public RawFile {
 
     std::vector<std::string> news() const override;
     bool grow() override;
+    bool grows() const override { return true; }
 
   private:
     void refuse_yaml() const;

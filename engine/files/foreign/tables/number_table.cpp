@@ -254,6 +254,7 @@ void NumberTable::find_frames() {
     }
     frames_.clear();
     frame_of_.clear();
+    moments_.back().open = true;  // no table says how many rows a moment has
 }
 
 void NumberTable::name_nameless() {

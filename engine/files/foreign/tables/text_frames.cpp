@@ -67,6 +67,7 @@ void TextFrames::go_on(bool growing) {
                                             file_.string(), line_.number));
             break;
         }
+        moment.open = open_end_;
         moments_.push_back(moment);
         places_.push_back(begin);
         next_ = {lines_.place(), lines_.number()};

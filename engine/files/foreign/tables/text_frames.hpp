@@ -28,6 +28,7 @@ class TextFrames : public RawFile {
     RawFrame read(std::size_t index) const override;
     std::vector<std::string> news() const override { return news_; }
     bool grow() override;
+    bool grows() const override { return true; }
 
   protected:
     enum class Passed { frame, end, cut };

@@ -253,6 +253,7 @@ class VtkCollection : public RawFile {
         return std::move(parts.frame);
     }
 
+    bool grows() const override { return true; }
     bool grow() override {
         CollectionList list = collection_list(file_);
         const std::size_t done = taken_.empty() ? 0 : taken_.back() + 1;
