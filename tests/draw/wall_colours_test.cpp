@@ -129,7 +129,8 @@ TEST(WallColours, ThinTrianglesShareTheirWear) {
         strip.triangles.push_back({2 * k, 2 * k + 2, 2 * k + 1});
         strip.triangles.push_back({2 * k + 1, 2 * k + 2, 2 * k + 3});
     }
-    const MeshFacts facts{.low = {0, 0, 0}, .high = {0.12, 0.1, 0}};
+    MeshFacts facts;
+    mend(strip, facts);
     plate.scene.meshes[0].surface.of = std::make_shared<const Surface>(strip, facts, "strip");
     SceneMeshes meshes(plate.scene);
     std::vector<double> pressure;
