@@ -78,12 +78,14 @@ enum class GrainValue {
     kinetic_energy,     // J, of translation and rotation
     coordination,       // contacts that carry force, walls included
     contact_force,      // N, sum of the normal forces on the grain
+    own,                // the user's own values (Shot::own); no scene can name them
 };
 
 enum class ColourMap { viridis, cividis, vik, bilbao };  // bilbao: only for walls
 
 struct GrainColouring {
     GrainValue by = GrainValue::species;
+    std::string title;  // words above the colour bar, of own values only
     // The following have no meaning when grains are coloured by species.
     ColourMap map = ColourMap::viridis;
     std::array<double, 2> range{0, 1};  // SI: range of the quantity for the whole film
