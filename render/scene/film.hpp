@@ -85,7 +85,6 @@ enum class ColourMap { viridis, cividis, vik, bilbao };  // bilbao: only for wal
 
 struct GrainColouring {
     GrainValue by = GrainValue::species;
-    std::string title;  // words above the colour bar, of own values only
     // The following have no meaning when grains are coloured by species.
     ColourMap map = ColourMap::viridis;
     std::array<double, 2> range{0, 1};  // SI: range of the quantity for the whole film
@@ -94,6 +93,7 @@ struct GrainColouring {
     int layers = 5;                     // bands of start_height
     bool as_field = false;              // shows means as a layer in front of pale grains
     bool logarithmic = false;           // equal ratios have equal distances on the bar; the range is positive
+    std::string title{};                // words above the colour bar, of own values only
     bool of_grains() const { return by != GrainValue::species && !as_field; }
     bool of_field() const { return by != GrainValue::species && as_field; }
     bool operator==(const GrainColouring&) const = default;

@@ -42,7 +42,7 @@ len(run.inspect(where="species == big")["grains"]) == 10
 grainreel.open("two.xyz").trajectory.x.sizes == {"frame": 2, "atom": 1}
 "<video" in run.film(size="160x120", progress=True)._repr_html_()
 run.report().name == "report.html" and "vibrated" not in grainreel.check("scene.toml", drive__g_level=3)
-grainreel.compare([run, other], out="both", size="640x360").path.is_dir()
+grainreel.compare([run, other], out="pair", size="640x360").path.is_dir()
 len(grainreel.study("study.toml", out="sweep").table) == 2
 """.strip().splitlines()
 

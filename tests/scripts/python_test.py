@@ -7,6 +7,7 @@ Exit status 77: xarray, numpy or a reader of NetCDF is missing.
 import os
 import re
 import struct
+import subprocess
 import sys
 import tempfile
 import threading
@@ -46,8 +47,15 @@ def mistake_of(call):
 # ---- pictures
 
 
+def guess_of(kind, left, up, corner):
+    if kind == 4:
+        base = left + up - corner
+        return min((abs(base - left), 0, left), (abs(base - up), 1, up), (abs(base - corner), 2, corner))[2]
+    return (0, left, up, (left + up) // 2)[kind]
+
+
 def read_png(data):
-    """By the definition of the two filters that are written (PNG, W3C 2003)."""
+    """By the definition of the filters (PNG, W3C 2003)."""
     place, packed, head = 8, b"", None
     while place < len(data):
         length, kind = struct.unpack(">I4s", data[place:place + 8])
@@ -58,11 +66,15 @@ def read_png(data):
         place += 12 + length
     width, height, bits, colour, *rest = head
     expect(bits == 8 and rest == [0, 0, 0], f"the head of a PNG file is {head}")
-    row_bytes = width * {2: 3, 6: 4}[colour]
+    channels = {2: 3, 6: 4}[colour]
+    row_bytes = width * channels
     rows, above, lines = zlib.decompress(packed), [0] * row_bytes, []
     for y in range(height):
-        kind, line = rows[y * (row_bytes + 1)], rows[y * (row_bytes + 1) + 1:(y + 1) * (row_bytes + 1)]
-        above = [(byte + (up if kind == 2 else 0)) % 256 for byte, up in zip(line, above)]
+        kind, line = rows[y * (row_bytes + 1)], []
+        for i, byte in enumerate(rows[y * (row_bytes + 1) + 1:(y + 1) * (row_bytes + 1)]):
+            left, corner = (line[i - channels], above[i - channels]) if i >= channels else (0, 0)
+            line.append((byte + guess_of(kind, left, above[i], corner)) % 256)
+        above = line
         lines.append(above)
     return numpy.array(lines, numpy.uint8).reshape(height, width, -1)
 
@@ -121,6 +133,10 @@ def check_run(program):
     expect("is not there; run the scene with output.fields.grid" in mistake_of(lambda: run.fields), "fields are there")
     picture = grainreel.render(run, at=0.1, size="160x120", program=program)
     expect(picture.shape == (120, 160, 3) and picture.dtype == numpy.uint8 and picture.std() > 10, "no picture")
+    command = [program, "render", "run", "--at", "0.1", "--size", "160x120", "--out", "at.png", "--quiet"]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    for again in (picture, grainreel.render(run, at=0.1, size="160x120", program=program)):
+        expect((read_png(Path("at.png").read_bytes()) == again).all(), "render() and the program draw different pictures")
     pale = grainreel.render(run.path, size=(160, 120), program=program, transparent=True)
     expect(pale.shape == (120, 160, 4), f"a transparent picture has the shape {pale.shape}")
     check_frames(run)

@@ -145,11 +145,12 @@ class Study:
         folders = [self.path / str(folder) for folder in self.table["folder"].dropna()]
         return [Run(folder) for folder in folders if (folder / "scene.toml").is_file()]
 
+    @property
     def charts(self) -> List[Path]:
         """The files of its charts, SVG."""
         return sorted((self.path / "charts").glob("*.svg"))
 
     def _repr_html_(self) -> str:
         pictures = [f'<img alt="{escape(chart.stem, quote=True)}" src="data:image/svg+xml;base64,'
-                    f'{base64.b64encode(chart.read_bytes()).decode("ascii")}">' for chart in self.charts()]
+                    f'{base64.b64encode(chart.read_bytes()).decode("ascii")}">' for chart in self.charts]
         return "".join(pictures) + str(self.table.to_html(index=False))

@@ -25,9 +25,10 @@ Settings = Optional[Mapping[str, Any]]
 def open(run: Union[PathLike, "Run"], *, program: Optional[PathLike] = None, **reading: Any) -> "Run":  # as xarray has it
     """The run in a folder, or files of another program as a run: a file, a folder, or a pattern as "dump.*".
 
-    For these files `reading` says what they do not: columns={"radius": "c_rad"}, radius="2 mm", time_step="1 us",
-    units="lj", species={1: "small"}, density="2500 kg/m3", contacts="contacts.*", walls="mesh.stl", walls_scale=0.001,
-    container="scene.toml", moves_with="container", one=True (docs/guide/other-programs.md).
+    For these files `reading` says what they do not: `columns={"radius": "c_rad"}`, `radius="2 mm"`, `time_step="1 us"`,
+    `units="lj"`, `species={1: "small"}`, `density="2500 kg/m3"`, `contacts="contacts.*"`, `walls="mesh.stl"`,
+    `walls_scale=0.001`, `container="scene.toml"`, `moves_with="container"`, `one=True`
+    (docs/guide/other-programs.md).
     """
     from ._run import Run
 
@@ -39,10 +40,11 @@ def start(scene: Scene = None, *, text: Optional[str] = None, out: Optional[Path
           program: Optional[PathLike] = None, set: Settings = None, **settings: Any) -> Running:
     """Starts a run of a scene and gives it as it goes, see `Running`.
 
-    scene: its file, or the scene itself as a dict, or as text=. out: the folder, which must be new, or force=True; else
-    one in output/ is chosen. film, report: whether they are made. cache: whether a packing of an earlier run is taken.
-    settings: other values for keys of the scene, drive__frequency="20 Hz" for drive.frequency;
-    set={"drive.frequency": "20 Hz"} is the same.
+    - `scene`: its file, or the scene itself as a dict; or `text`: the scene as text.
+    - `out`: the folder, which must be new, or `force=True`; else one in output/ is chosen.
+    - `film`, `report`: whether they are made. `cache`: whether a packing of an earlier run is taken.
+    - `settings`: other values for keys of the scene, `drive__frequency="20 Hz"` for drive.frequency;
+      `set={"drive.frequency": "20 Hz"}` is the same.
     """
     file = SceneFile(scene, text, "scene")
     try:
@@ -68,8 +70,10 @@ def run(scene: Scene = None, *, text: Optional[str] = None, progress: Progress =
         program: Optional[PathLike] = None, set: Settings = None, **settings: Any) -> "Run":
     """Runs a scene to its end and gives its Run.
 
-    progress: True for a line on stderr, or a function that is called with each dict of progress. Ctrl-C ends the run in
-    good order and raises KeyboardInterrupt. The rest: see `start`.
+    - `progress`: True for a line on stderr, or a function that is called with each dict of progress.
+    - The rest: see `start`.
+
+    Ctrl-C ends the run in good order and raises KeyboardInterrupt.
     """
     _check_progress(progress)
     running = start(scene, text=text, out=out, force=force, film=film, report=report, threads=threads, cache=cache,
@@ -84,10 +88,13 @@ def render(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Opt
     """A picture of a moment of a run, or of another program's files, as an array: rows x columns x 3 (4 where it is
     transparent) numbers of 0 to 255.
 
-    at: s. frame: number of a frame of the film, whose run was made with film=True. Neither: the last moment. size:
-    "640x480" or (640, 480). colour: a number for each grain by which they are coloured, in the order of ids, or with the
-    ids as the coordinate or the index `id`, as arrays of `run[-1]` have them; colour__range=(0, 2), colour__map,
-    colour__scale and colour__title belong to it. settings: keys of [film], as in colour__by="speed".
+    - `at`: s; `frame`: number of a frame of the film, whose run was made with `film=True`. Neither: the last moment.
+    - `size`: "640x480" or (640, 480).
+    - `colour`: a number for each grain by which they are coloured, in the order of ids, or with the ids as the
+      coordinate or the index `id`, as arrays of `run[-1]` have them. `colour__range=(0, 2)`, `colour__map="vik"`,
+      `colour__scale="logarithmic"` and `colour__title="age (s)"` belong to it.
+    - `reading`: a dict, what files of other programs do not say, see `open`.
+    - `settings`: keys of [film], as in `colour__by="speed"`; `set={"film.colour.by": "speed"}` is the same.
 
     The first picture of a run starts a program that stays; the next ones take some tens of ms.
     """
@@ -103,9 +110,10 @@ def film(run: Union[PathLike, "Run"], *, out: Optional[PathLike] = None, force: 
     """A film of a finished run, or of another program's files. Without further arguments it is the one that the run
     has, if it has one; else it is drawn.
 
-    start, end: s, the first and the last moment. every: draws each such frame of the trajectory. out: the folder of the
-    film, which must be new, or force=True; else one beside the run is chosen. progress: see `run`. settings: keys of
-    [film].
+    - `start`, `end`: s, the first and the last moment. `every`: draws each such frame of the trajectory.
+    - `out`: the folder of the film, which must be new, or `force=True`; else one beside the run is chosen.
+    - `replay=False`: only kept moments.
+    - `progress`: see `run`. `reading`, `settings`, `set`: see `render`.
     """
     _check_progress(progress)
     path = path_of(run, "run")
@@ -131,10 +139,13 @@ def inspect(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Op
             progress: Progress = None, program: Optional[PathLike] = None, reading: Settings = None) -> Answer:
     """What is there at a moment: at (s), frame (of the film) or cycle (periods of the drive); neither: the last one.
 
-    One question: grain (its id), wall (its name), largest_overlap, where (a condition, as "species == big and
-    height > 2 cm"), profile (a direction), slice (a plane, as "y=0"), histogram (a quantity), pair_distribution, compare
-    (another time), steady (a column of measures). Without one: an overview. The guide to inspect tells more
-    (docs/guide/inspect.md). replay=False: only kept moments.
+    - One question: `grain` (its id), `wall` (its name), `largest_overlap`, `where` (a condition, as "species == big and
+      height > 2 cm"), `profile` (a direction), `slice` (a plane, as "y=0"), `histogram` (a quantity),
+      `pair_distribution`, `compare` (another time), `steady` (a column of measures). Without one: an overview.
+    - `over_time`, `every`, `mean` belong to `where`, `bins` to `histogram`, `phase` to `cycle`.
+    - `average`: means over so many periods. `limit`: most grains in a list. `replay=False`: only kept moments.
+
+    docs/guide/inspect.md tells more.
     """
     words = [path_of(run, "run"), "--json"]
     words += options(at=time_of(at, "at"), frame=frame, cycle=cycle, phase=phase, average=average, grain=grain, wall=wall,
@@ -155,9 +166,11 @@ def export(run: Union[PathLike, "Run"], to: str, *, out: Optional[PathLike] = No
            reading: Settings = None) -> Path:
     """Writes the frames of a run for another program, and gives the file or folder.
 
-    to: "vtk", "xyz", "csv", "lammps-dump", "lammps-data", "netcdf", "stl", "gsd", "gltf", "blender" or "grain-table".
-    Without `out` they go into the run's own folder, in place of an earlier export of this format; those of other
-    programs' files go beside these. at: s, only this moment. start, end: s. every: each such frame.
+    - `to`: "vtk", "xyz", "csv", "lammps-dump", "lammps-data", "netcdf", "stl", "gsd", "gltf", "blender" or
+      "grain-table".
+    - `out`: the file or folder. Without it they go into the run's own folder, in place of an earlier export of this
+      format; those of other programs' files go beside these.
+    - `at`: s, only this moment. `start`, `end`: s, the first and the last one. `every`: each such frame.
     """
     path = path_of(run, "run")
     if out is None and (Path(path) / "scene.toml").is_file():
@@ -183,10 +196,10 @@ def compare(runs: Any, *, out: Optional[PathLike] = None, force: bool = False, v
             program: Optional[PathLike] = None, reading: Settings = None, set: Settings = None,
             **settings: Any) -> Comparison:
     """Runs side by side, in step: two to six runs, scenes or files of other programs; or one scene with
-    vary={"drive.g_level": [2, 4]}.
+    `vary={"drive.g_level": [2, 4]}`.
 
-    captions: one for each. at: s, one picture in place of a film. settings: keys that every scene gets. The rest: see
-    `start` and `film`.
+    - `captions`: one for each. `at`: s, one picture in place of a film.
+    - `settings`, `set`: keys that every scene gets. The rest: see `start` and `film`.
     """
     _check_progress(progress)
     given = _paths(runs)
@@ -206,9 +219,12 @@ def compare(runs: Any, *, out: Optional[PathLike] = None, force: bool = False, v
 def study(study: Scene = None, *, text: Optional[str] = None, out: Optional[PathLike] = None, jobs: Optional[int] = None,
           films: bool = False, retry: bool = False, cache: bool = True, progress: Progress = None,
           program: Optional[PathLike] = None) -> Study:
-    """Runs a study to its end, or goes on with one that was stopped, and gives its results. study: its file, or the study
-    itself as a dict, or as text=. jobs: members that run at a time. films: makes a film of each member. retry: runs
-    failed members again."""
+    """Runs a study to its end, or goes on with one that was stopped, and gives its results.
+
+    - `study`: its file, or the study itself as a dict; or `text`: the study as text (docs/guide/studies.md).
+    - `out`: its folder. `jobs`: members that run at a time.
+    - `films`: makes a film of each member. `retry`: runs failed members again.
+    """
     _check_progress(progress)
     file = SceneFile(study, text, "study")
     try:
