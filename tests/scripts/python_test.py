@@ -141,6 +141,7 @@ def check_run(program):
     expect(pale.shape == (120, 160, 4), f"a transparent picture has the shape {pale.shape}")
     check_frames(run)
     check_own_colours(run)
+    check_empty_frames()
     # A file of another program: its last moment too. A grain that moves to the other side of the picture shows which.
     Path("two.xyz").write_text("".join(
         f'1\nLattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:radius:R:1 Time={time}\nA 2 {y} 2 0.5\n'
@@ -168,6 +169,17 @@ def check_frames(run):
     table = run.to_dataframe()
     expect(list(table.groupby("frame").z.max()) == list(trajectory.z.max("atom").values), "the table has other grains")
     expect(abs(float(run.sel(time="100 ms").time) - 0.1) < 1e-3, "a time with a unit finds another frame")
+
+
+def check_empty_frames():
+    """A run into which grains fall: its first frame has none, and no frame has more than are there."""
+    run = grainreel.run(ROOT / "tests/data/scenes/fed.toml", out="fed", run__duration="0.1 s", threads=1)
+    counts = [frame.sizes["atom"] for frame in run]
+    expect(counts[0] == 0 and counts == list(run.trajectory.grains.values), f"frames have {counts} grains")
+    expect(len(run.to_dataframe()) == sum(counts), "the table has places without grains")
+    expect(set(run[-1].species.values) == {"glass"} and run[0].species.sizes == {"atom": 0}, "species of a frame")
+    picture = run.render(colour=run[-1].z, size="160x120")
+    expect((picture != run.render(at=0, size="160x120")).any(), "grains that came are not drawn")
 
 
 def check_own_colours(run):

@@ -151,6 +151,8 @@ def read_contacts(file: Path, times: Callable[[], Any]) -> xarray.Dataset:
 def one_frame(trajectory: xarray.Dataset, number: int) -> xarray.Dataset:
     """A frame as a table: the grains that are there then, one a row."""
     frame = trajectory.isel(frame=number)
+    frame = frame.drop_vars([name for name, variable in frame.variables.items() if variable.dims not in ((), ("atom",))])
+    frame = frame.load()  # netCDF4 gives arrays of another shape where no grain is asked for
     if "present" in frame.variables:
         held = frame.variables["present"].values > 0
     elif "grains" in frame.variables:
@@ -158,7 +160,6 @@ def one_frame(trajectory: xarray.Dataset, number: int) -> xarray.Dataset:
     else:
         held = numpy.ones(frame.sizes["atom"], bool)
     frame = frame.isel(atom=numpy.flatnonzero(held))
-    frame = frame.drop_vars([name for name, variable in frame.variables.items() if variable.dims not in ((), ("atom",))])
     return frame.set_coords([name for name in ("id", "species") if name in frame.variables])
 
 
