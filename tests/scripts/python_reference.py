@@ -15,7 +15,8 @@ MODULE = ROOT / "render/package/python/grainreel"
 PAGE = ROOT / "docs/reference/python.md"
 FUNCTIONS = ("open", "run", "start", "render", "film", "inspect", "export", "report", "compare", "study", "check")
 CLASSES = ("Run", "Running", "Picture", "Film", "Answer", "Comparison", "Study", "GrainreelError")
-SPECIAL = {"__len__", "__getitem__", "__iter__"}  # methods that are shown although their names begin with _
+# Methods that are shown although their names begin with _, as they are written.
+SPECIAL = {"__len__": "len(run)", "__getitem__": "run[number]", "__iter__": "for frame in run"}
 
 HEAD = """# The Python module
 
@@ -56,7 +57,7 @@ def signature(node, name):
         parts.append(argument.arg + (f"={ast.unparse(default)}" if default else ""))
     if spec.kwarg:
         parts.append("**" + spec.kwarg.arg)
-    back = f" -> {words_of(node.returns)}" if node.returns and ast.unparse(node.returns) != "None" else ""
+    back = f" -> {words_of(node.returns)}" if node.returns and ast.unparse(node.returns) not in ("None", "Any") else ""
     lines, line = [], f"{name}("
     for place, part in enumerate(parts):
         piece = part + (", " if place < len(parts) - 1 else "")
@@ -101,6 +102,7 @@ def members(node, lines):
             continue
         words = " ".join(prose(part).split())
         name = part.name if is_property(part) else " ".join(signature(part, part.name).split())
+        name = SPECIAL.get(part.name, name)
         yield f"- `{name}`: {words}"
 
 

@@ -126,8 +126,9 @@ class Painter:
     def _why(self) -> GrainreelError:
         status = self._process.wait()
         self._said.seek(0)
-        words = []
-        for line in self._said.read().decode("utf-8", "replace").splitlines():
+        lines, words = self._said.read().decode("utf-8", "replace").splitlines(), []
+        self.close()
+        for line in lines:
             try:
                 said = json.loads(line)
                 words.append(said["text"] if said.get("event") == "error" else "")

@@ -73,21 +73,10 @@ def watcher_of(progress: object) -> Optional[Callable[[Any], object]]:
 
 def _end(process: subprocess.Popen[str], owner: int) -> None:
     """Ends a run that nobody has any more, as stop() does. A forked process does not own it."""
-    if os.getpid() != owner:
-        return
-    if process.poll() is None:
+    if os.getpid() == owner and process.poll() is None:
         process.send_signal(signal.SIGINT)
-    for pipe in (process.stdout, process.stderr):
-        if pipe and not pipe.closed:
-            threading.Thread(target=_drain, args=(pipe,), daemon=True).start()
-
-
-def _drain(pipe: Any) -> None:
-    try:
-        while pipe.read(1 << 16):
-            pass
-    except (OSError, ValueError):
-        pass
+    if process.stderr:
+        process.stderr.close()
 
 
 class Running:
@@ -218,6 +207,7 @@ def _gather(pipe: Any, parts: List[str]) -> None:
     try:
         while part := pipe.read(1 << 16):
             parts.append(part)
+        pipe.close()
     except (OSError, ValueError):  # closed by a finalizer
         pass
 

@@ -8,7 +8,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, List, Optional
 
-from ._messages import GrainreelError
+from ._messages import GrainreelError, in_python
 
 if TYPE_CHECKING:
     from ._run import Run
@@ -51,7 +51,7 @@ class Answer(Mapping[str, Any]):
         #: time (s), step, and how the moment was had.
         self.moment: Dict[str, Any] = dict(said.get("moment") or {})
         #: Lines that belong to the answer.
-        self.notes: List[str] = [str(note) for note in said.get("notes", [])]
+        self.notes: List[str] = [in_python(str(note)) for note in said.get("notes", [])]
         self._said: Dict[str, Any] = dict(said.get("tables", {}))
 
     def __getitem__(self, name: str) -> Any:

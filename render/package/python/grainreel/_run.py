@@ -5,7 +5,7 @@ import operator
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, Dict, List, Optional, TypeVar
+from typing import Any, Dict, List, Optional, TypeVar, overload
 
 import xarray
 
@@ -81,7 +81,14 @@ class Run:
     # ---- its frames
 
     def __len__(self) -> int:
+        """The number of its frames."""
         return self.trajectory.sizes["frame"]
+
+    @overload
+    def __getitem__(self, number: int) -> xarray.Dataset: ...
+
+    @overload
+    def __getitem__(self, number: slice) -> List[xarray.Dataset]: ...
 
     def __getitem__(self, number: Any) -> Any:
         """The frame of that number, from the end where it is below 0; of a slice a list of frames."""
@@ -96,6 +103,7 @@ class Run:
         return _data.one_frame(self.trajectory, place % len(self))
 
     def __iter__(self) -> Iterator[xarray.Dataset]:
+        """All frames, each read when its turn comes."""
         for place in range(len(self)):
             yield self[place]
 
