@@ -173,10 +173,15 @@ def check_frames(run):
 
 def check_empty_frames():
     """A run into which grains fall: its first frame has none, and no frame has more than are there."""
-    run = grainreel.run(ROOT / "tests/data/scenes/fed.toml", out="fed", run__duration="0.1 s", threads=1)
+    run = grainreel.run(ROOT / "tests/data/scenes/fed.toml", out="fed", run__duration="0.1 s", threads=1,
+                        output__fields__grid="yz", output__contacts=True)
     counts = [frame.sizes["atom"] for frame in run]
     expect(counts[0] == 0 and counts == list(run.trajectory.grains.values), f"frames have {counts} grains")
     expect(len(run.to_dataframe()) == sum(counts), "the table has places without grains")
+    fields = run.to_dataframe("fields")
+    points = int(numpy.prod([run.fields.sizes[name] for name in ("time", "y", "z")]))
+    expect(len(fields) == points and {"time", "y", "z", "density"} <= set(fields), f"{len(fields)} of {points} points")
+    expect(len(run.to_dataframe("contacts")) == run.contacts.sizes["row"], "the table has other contacts")
     expect(set(run[-1].species.values) == {"glass"} and run[0].species.sizes == {"atom": 0}, "species of a frame")
     picture = run.render(colour=run[-1].z, size="160x120")
     expect((picture != run.render(at=0, size="160x120")).any(), "grains that came are not drawn")
