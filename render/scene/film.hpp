@@ -78,6 +78,7 @@ enum class GrainValue {
     kinetic_energy,     // J, of translation and rotation
     coordination,       // contacts that carry force, walls included
     contact_force,      // N, sum of the normal forces on the grain
+    own,                // the user's own values (Shot::own); no scene can name them
 };
 
 enum class ColourMap { viridis, cividis, vik, bilbao };  // bilbao: only for walls
@@ -92,6 +93,7 @@ struct GrainColouring {
     int layers = 5;                     // bands of start_height
     bool as_field = false;              // shows means as a layer in front of pale grains
     bool logarithmic = false;           // equal ratios have equal distances on the bar; the range is positive
+    std::string title{};                // words above the colour bar, of own values only
     bool of_grains() const { return by != GrainValue::species && !as_field; }
     bool of_field() const { return by != GrainValue::species && as_field; }
     bool operator==(const GrainColouring&) const = default;

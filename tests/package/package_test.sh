@@ -48,7 +48,7 @@ for needed in python3 python3-xarray python3-netcdf4 grainreel; do
     dpkg-deb -f "$module" Depends | grep -qE "(^|, )$needed( |,|$)" || fail "$module does not depend on $needed"
 done
 dpkg-deb -x "$module" "$here/module"
-[[ -s $here/module/usr/lib/python3/dist-packages/grainreel.py ]] || fail "the Python module is missing"
+[[ -s $here/module/usr/lib/python3/dist-packages/grainreel/__init__.py ]] || fail "the Python module is missing"
 [[ ! -e $here/root/usr/lib/python3 ]] || fail "the program's package has files for Python"
 for name in grainreel libgrainreel-dev python3-grainreel; do
     changes=$(find "$here"/{root,library,module} -path "*/doc/$name/changelog.gz")

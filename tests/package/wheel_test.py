@@ -50,7 +50,7 @@ def check_files(wheel):
             check(files.getinfo(name).external_attr >> 16 & 0o111 == 0o111, f"{name} may not be run")
         about = files.read(record.replace("RECORD", "METADATA")).decode()
         needs = re.findall(r"^Requires-Dist: (.*)$", about, re.M)
-        check(needs == ["numpy", "xarray", "netCDF4"], f"it needs {needs}")
+        check(needs == ["numpy", "xarray>=2023.1", "netCDF4"], f"it needs {needs}")
 
 
 def main():
@@ -78,7 +78,7 @@ def main():
         place = re.search(r"unpacked in (.*)$", said, re.M)
         check(place and Path(place.group(1)).is_relative_to(folder / "venv"), f"--version says: {said}")
         said = run(folder / "venv/bin/python", "-c", USE, "wedge_segregation")
-        check(re.fullmatch(rf"complete 0\.2 \(240, 320, 3\) True {re.escape(str(folder))}/venv/.*/grainreel\.py\n", said),
+        check(re.fullmatch(rf"complete 0\.2 \(240, 320, 3\) True {re.escape(str(folder))}/venv/.*/grainreel/__init__\.py\n", said),
               f"the module says: {said}")
         run(folder / "venv/bin/pip", "uninstall", "--yes", "grainreel")
         check(not list((folder / "venv").rglob("*grainreel*")), "pip leaves files behind")
