@@ -40,6 +40,7 @@ struct FilmWalls {
     double edge_angle = 30;          // degrees; edges whose faces turn more are drawn
     std::vector<std::string> solid;  // names of meshes that are solid from all sides
     std::vector<std::string> glass;  // names of meshes that are glass from outside
+    bool clear = false;              // all walls, those of the container too, are glass from both sides
     bool coloured() const { return colour != Colour::plain; }
     // Whether equal ratios of values have equal distances on the colour bar. Where the range begins at 0,
     // equal differences have equal distances instead.
