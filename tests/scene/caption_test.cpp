@@ -57,7 +57,7 @@ TEST(Captions, MistakesAreToldWordForWord) {
 
 TEST(Captions, MayHoldMeasuredValues) {
     const FilmedScene scene =
-        read_text(captioned("[[film.caption]]\nfrom = 1\ntext = \"{{mixed}}: {lacey:%} at {kinetic:mJ}\"\n"));
+        read_text(captioned("[[film.caption]]\nfrom = 1\ntext = \"{{mixed}: {lacey:%} at {kinetic:mJ}\"\n"));
     const std::vector<LiveWords>& words = scene.film.captions.at(0).words;
     ASSERT_EQ(words.size(), 2u);
     EXPECT_EQ(words[0], (LiveWords{"{mixed}: ", "lacey", "%", 0.01}));
