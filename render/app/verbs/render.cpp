@@ -11,6 +11,7 @@
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/listener.hpp"
+#include "render/app/asked/asked_pictures.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/cli.hpp"
@@ -74,6 +75,24 @@ class Render final : public Verb {
                                              "files of another program, to a PNG file")
                                  ->type_name("N")
                                  ->excludes(at);
+        CLI::Option* cycle =
+            parser
+                .add_option("--cycle", request_.cycle,
+                            "Draw only this moment, in periods of the drive, as in 40, to a PNG file")
+                ->type_name("N")
+                ->check(number_within(0, 1e9))
+                ->excludes(at)
+                ->excludes(frame);
+        parser
+            .add_option("--phase", request_.phase,
+                        "With --cycle: part of the period that has passed, from 0 to 1 [0]")
+            ->type_name("TURNS")
+            ->check(number_within(0, 1))
+            ->needs(cycle);
+        CLI::Option* asked =
+            parser.add_flag("--asked", asked_,
+                            "Draw pictures that another program asks for on stdin, and write them to stdout "
+                            "(docs/guide/python.md)");
         add_print_size(parser, request_.print);
         add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
@@ -85,22 +104,27 @@ class Render final : public Verb {
         add_time(parser, "--idle", idle_,
                  "With --follow: end the film after this time without a new frame, as in 30s [60 s]")
             ->needs(follow);
-        for (CLI::Option* other : {at, frame, from, to, every}) follow->excludes(other);
+        for (CLI::Option* other : {at, frame, cycle, from, to, every}) follow->excludes(other);
         add_parts(parser, request_.parts, slurm_);
         for (const char* other : {"--part", "--parts", "--slurm"})
-            for (CLI::Option* one : {follow, at, frame}) one->excludes(parser.get_option(other));
+            for (CLI::Option* one : {follow, at, frame, cycle}) one->excludes(parser.get_option(other));
         add_film(
             parser, film_,
             "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
         for (CLI::Option* other :
              {from, to, every, parser.get_option("--frames"), parser.get_option("--no-film")})
-            at->excludes(other), frame->excludes(other);
+            for (CLI::Option* one : {at, frame, cycle}) one->excludes(other);
+        for (CLI::Option* other : {at, frame, cycle, from, to, every, follow, parser.get_option("--part"),
+                                   parser.get_option("--parts"), parser.get_option("--slurm"),
+                                   parser.get_option("--out"), parser.get_option("--frames"),
+                                   parser.get_option("--no-film"), parser.get_option("--keep-camera")})
+            asked->excludes(other);
         add_reporting(parser, report);
     }
 
     int run(Reporter& reporter) override {
         film_.command = command;
-        check_print_size(request_.print, is_still(), "--at or --frame");
+        check_print_size(request_.print, is_still() || asked_, "--at, --frame or --cycle");
         check_idle();
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
@@ -116,6 +140,7 @@ class Render final : public Verb {
         request_.run = read.folder;
         if (read.imported) request_.beside = read.beside;
         request_.frame_of_file = read.imported;
+        if (asked_) return draw_asked_pictures(film_, request_, reporter);
         if (read.imported && !is_still() && !request_.every) request_.every = 1;
         if (is_still()) return draw_one(reporter);
         if (request_.every) check_no_segments(request_.sets);
@@ -137,7 +162,7 @@ class Render final : public Verb {
 
     double idle() const { return idle_.value_or(60); }
 
-    bool is_still() const { return request_.at || request_.frame; }
+    bool is_still() const { return request_.at || request_.frame || request_.cycle; }
 
     int follow(Reporter& reporter) const {
         const bool handed_over = is_handover(request_.run);
@@ -155,8 +180,9 @@ class Render final : public Verb {
         return tell_folder(film.run(), film_);
     }
 
-    int draw_one(Reporter& reporter) const {
+    int draw_one(Reporter& reporter) {
         StoredShots source(request_.run, sets_for_still(request_.sets), request_.replay);
+        if (request_.cycle) request_.at = time_of_cycle(request_, source.clock(), source.span().to);
         keep_camera_file(camera_, source.scene().film.camera);
         const auto file = draw_still(film_, request_, reporter, source);
         if (!file) return signal_base + reporter.stop_signal();
@@ -183,7 +209,7 @@ class Render final : public Verb {
     int slurm_ = 0;  // number of parts of a Slurm script; 0: no script
     ReadingOptions reading_;
     CameraFiles camera_;
-    bool follow_ = false;
+    bool follow_ = false, asked_ = false;
     std::optional<double> idle_;  // s
     FilmRequest film_;
 };

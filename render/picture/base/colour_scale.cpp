@@ -15,8 +15,8 @@ namespace grainreel {
 
 namespace {
 
-const char* quantity_words(GrainValue value) {
-    switch (value) {
+std::string quantity_words(const GrainColouring& colouring) {
+    switch (colouring.by) {
         case GrainValue::speed:
             return "speed";
         case GrainValue::vertical_velocity:
@@ -35,6 +35,8 @@ const char* quantity_words(GrainValue value) {
             return "contacts of a grain";
         case GrainValue::contact_force:
             return "normal forces on a grain";
+        case GrainValue::own:
+            return colouring.title;
         case GrainValue::species:
             break;
     }
@@ -82,8 +84,8 @@ std::string clipped_words(const GrainColouring& colouring, const ClippedCount& c
                                            {in_unit(colouring.range[0], size, colouring.unit),
                                             banded ? "" : in_unit(colouring.range[1], size, colouring.unit)});
     if (parts.empty()) return "";
-    return fmt::format("colours by {}: {}, where the bar ends (film.colour.range)",
-                       quantity_words(colouring.by), parts);
+    return fmt::format("colours by {}: {}, where the bar ends (film.colour.range)", quantity_words(colouring),
+                       parts);
 }
 
 // The words leave out triangles below the range: hardly anything touches those.
@@ -100,10 +102,10 @@ ColourScale::ColourScale(const GrainColouring& colouring)
     : map_(colouring.map),
       range_(colouring.range),
       bands_(bands_of(colouring)),
-      signed_(is_signed(colouring.by)),
+      signed_(is_signed(colouring.by) || colouring.by == GrainValue::own),
       logarithmic_(colouring.logarithmic),
       unit_size_(grainreel::unit_size(colouring.unit, dimension_of(colouring.by))),
-      title_(with_unit(quantity_words(colouring.by), colouring.unit)) {}
+      title_(with_unit(quantity_words(colouring), colouring.unit)) {}
 
 ColourScale::ColourScale(const FilmWalls& walls)
     : map_(ColourMap::bilbao), range_(walls.range), logarithmic_(walls.logarithmic()) {

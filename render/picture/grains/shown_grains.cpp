@@ -74,6 +74,7 @@ const Shot& ShownGrains::of(const Shot& frame) {
     keep(shown_.spin, kept_);
     keep(shown_.orientation, kept_);
     keep(shown_.displacement, kept_);
+    keep(shown_.own, kept_);
     return shown_;
 }
 
@@ -151,6 +152,9 @@ const std::vector<double>& Quantities::of(const Shot& frame) {
             case GrainValue::kinetic_energy:
                 values_[i] = kinetic_energy(frame, i, density_[frame.species[i]]);
                 break;
+            case GrainValue::own:
+                if (!frame.own.empty()) values_[i] = frame.own[i];
+                break;
             default:
                 break;
         }
@@ -178,6 +182,9 @@ GrainColours::GrainColours(const FilmedScene& scene)
             steps_.push_back(to_albedo(pale ? mix(colour, pale_grain, 0.8) : colour));
         return;
     }
+    for (std::size_t i = 0; i < scene.species.size(); ++i)
+        own_.push_back(scene.film.shows.colour.colours(i) ? std::nullopt
+                                                          : std::optional(to_albedo(scene.colours.at(i))));
     const ColourScale scale(scene.film.shows.colour);
     low_ = scale.low();
     high_ = scale.high();
@@ -213,7 +220,9 @@ const std::vector<Albedo>& GrainColours::of(const Shot& frame) {
     }
     const std::vector<double>& values = quantities_.of(frame);
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        colours_[i] = of_value(values[i]);
+        const std::optional<Albedo>& own = own_.at(static_cast<std::size_t>(frame.species[i]));
+        colours_[i] = own ? *own : of_value(values[i]);
+        if (own) continue;
         clipped_.take(values[i], {low_, high_});
     }
     return colours_;

@@ -142,12 +142,13 @@ class Entries {
         line(species.name, writer_.main(), writer_.palette.ink);
         for (const std::string& numbers : numbers_of(species))
             line(numbers, writer_.minor(), writer_.palette.faint_ink);
-        const bool by_species = scene_.film.shows.colour.by == GrainValue::species;
+        const GrainColouring& colour = scene_.film.shows.colour;
+        const bool own = colour.by == GrainValue::species || (colour.of_grains() && !colour.colours(i));
         const double share =
             std::max(0.25, species.diameter.largest / std::max(largest_diameter(scene_), 1e-30));
         if (writer_.on)
             draw_lit_ball(writer_.on, x + 0.5 * icon_, y + 0.5 * size.height, 0.5 * icon_ * share,
-                          by_species ? scene_.colours[i] : neutral_grain);
+                          own ? scene_.colours[i] : neutral_grain);
         return size;
     }
 
