@@ -98,28 +98,43 @@ void WallLight::number_row(int y) {
     }
 }
 
-bool WallLight::fill_from_faces(const Sight& sight, int x, int y, WallRow& row) const {
+namespace {
+
+// Whether any of up to 16 numbers is not 0.
+template <class Number>
+bool any_of_row(const Number* numbers, int count) {
+    Number any = 0;
+    for (int i = 0; i < count; ++i) any |= numbers[i];
+    return any != 0;
+}
+
+}  // namespace
+
+void WallLight::fill_from_faces(const Sight& sight, int x, int y, WallRow& row) const {
     const std::uint16_t* numbers =
         number_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + x;
     const int count = std::min(kWallRow, width_ - x);
-    bool any = false;
-    for (int i = 0; i < kWallRow; ++i) {
+    const float v = sight.slope_y(row.y);
+    for (int i = 0; i < kWallRow;) {
         const int number = i < count ? numbers[i] : 0;
-        row.taken[i] = 0, row.away[i] = 1;
-        if (number == 0) continue;
-        any = true;
+        int end = i + 1;
+        while (end < kWallRow && (end < count ? numbers[end] : 0) == number) ++end;
+        if (number == 0) {
+            for (; i < end; ++i) row.taken[i] = 0, row.away[i] = 1;
+            continue;
+        }
         const Face& face = faces_[static_cast<std::size_t>(number - 1)];
-        const Eigen::Vector3f& n = face.plane.normal;
-        const float u = sight.slope_x(static_cast<float>(x + i) + 0.5f),
-                    v = sight.slope_y(static_cast<float>(y) + 0.5f);
-        const float across = n.x() * u + n.y() * v;
-        row.away[i] = sight.orthographic ? (face.plane.distance - across) / n.z()
-                                         : face.plane.distance / (across + n.z());
-        for (int c = 0; c < 3; ++c) row.normal[c][i] = n[c];
-        row.taken[i] = face.taken, row.tone[i] = face.tone;
-        row.wall[i] = face.wall, row.container[i] = face.container;
+        const Eigen::Vector3f n = face.plane.normal;
+        const float distance = face.plane.distance, taken = face.taken, tone = face.tone;
+        const float wall = face.wall, container = face.container;
+        for (int k = i; k < end; ++k) {
+            const float across = n.x() * sight.slope_x(row.x + static_cast<float>(k)) + n.y() * v;
+            row.away[k] = sight.orthographic ? (distance - across) / n.z() : distance / (across + n.z());
+            row.normal[0][k] = n.x(), row.normal[1][k] = n.y(), row.normal[2][k] = n.z();
+            row.taken[k] = taken, row.tone[k] = tone, row.wall[k] = wall, row.container[k] = container;
+        }
+        i = end;
     }
-    return any;
 }
 
 // Whether grains hide the pixels and all their neighbours.
@@ -139,13 +154,21 @@ ViewSphere WallLight::around(const Sight& sight, const Worker& worker, int rows)
     for (int r = 0; r < rows; ++r) {
         if (!worker.any[static_cast<std::size_t>(r)]) continue;
         const WallRow& row = worker.rows[static_cast<std::size_t>(r)];
+        int first = kWallRow, last = 0;
+        float nearest = 1e30f, farthest = -1e30f;
         for (int i = 0; i < kWallRow; ++i) {
-            if (row.taken[i] <= 0) continue;
-            const float scale = sight.orthographic ? 1 : row.away[i];
-            const Eigen::Array3f at(sight.slope_x(row.x + static_cast<float>(i)) * scale,
-                                    sight.slope_y(row.y) * scale, row.away[i]);
-            low = low.min(at), high = high.max(at);
+            const bool seen = row.taken[i] > 0;
+            first = seen && i < first ? i : first, last = seen ? i : last;
+            nearest = seen && row.away[i] < nearest ? row.away[i] : nearest;
+            farthest = seen && row.away[i] > farthest ? row.away[i] : farthest;
         }
+        for (const int i : {first, last})
+            for (const float away : {nearest, farthest}) {
+                const float scale = sight.orthographic ? 1 : away;
+                const Eigen::Array3f at(sight.slope_x(row.x + static_cast<float>(i)) * scale,
+                                        sight.slope_y(row.y) * scale, away);
+                low = low.min(at), high = high.max(at);
+            }
     }
     const Eigen::Array3f middle = 0.5f * (low + high);
     return {middle.x(), middle.y(), middle.z(), 0.5f * (high - low).matrix().norm()};
@@ -232,9 +255,9 @@ void WallLight::light_tile(const Job& job, int x, int y0, int rows, Worker& work
     }
 }
 
-// fill(x, y, row): what a row of pixels shows; returns whether it shows any wall.
-template <class Fill>
-void WallLight::light(const Job& job, Team& team, const Fill& fill) {
+// shows(x, y): whether 16 pixels from (x, y) on show any wall. fill(x, y, row): what they show.
+template <class Shows, class Fill>
+void WallLight::light(const Job& job, Team& team, const Shows& shows, const Fill& fill) {
     workers_.resize(static_cast<std::size_t>(team.size()));
     const int bands = (height_ + kTile - 1) / kTile;
     std::atomic<int> next{0};
@@ -252,13 +275,15 @@ void WallLight::light(const Job& job, Team& team, const Fill& fill) {
             }
             for (int x = 0; x < width_; x += kTile) {
                 bool any = false;
+                const int count = std::min(kTile, width_ - x);
                 for (int r = 0; r < rows; ++r) {
+                    const bool seen = shows(x, y0 + r, count) && !hidden(job.by.seen, x, y0 + r, count);
+                    worker.any[static_cast<std::size_t>(r)] = seen;
+                    if (!seen) continue;
                     WallRow& row = worker.rows[static_cast<std::size_t>(r)];
                     row.x = static_cast<float>(x) + 0.5f, row.y = static_cast<float>(y0 + r) + 0.5f;
-                    const bool seen =
-                        !hidden(job.by.seen, x, y0 + r, std::min(kTile, width_ - x)) && fill(x, y0 + r, row);
-                    worker.any[static_cast<std::size_t>(r)] = seen;
-                    any |= seen;
+                    fill(x, y0 + r, row);
+                    any = true;
                 }
                 if (any) light_tile(job, x, y0, rows, worker);
             }
@@ -283,29 +308,40 @@ void WallLight::light_faces(const LightTakers& by, const std::vector<WallFace>& 
             for (int y; (y = kRows * next.fetch_add(1, std::memory_order_relaxed)) < height_;)
                 for (int row = y; row < std::min(y + kRows, height_); ++row) number_row(row);
         });
-    light({by, corner_reach}, team,
-          [&](int x, int y, WallRow& row) { return fill_from_faces(s, x, y, row); });
+    if (faces_.empty()) {
+        if (!same) std::fill(shares_.begin(), shares_.end(), std::uint8_t{255});
+        std::fill(spans_.begin(), spans_.end(), Layer::Span{});
+        return;
+    }
+    light(
+        {by, corner_reach}, team,
+        [&](int x, int y, int count) {
+            return any_of_row(
+                number_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + x, count);
+        },
+        [&](int x, int y, WallRow& row) { fill_from_faces(s, x, y, row); });
 }
 
 void WallLight::light_meshes(const LightTakers& by, const MeshPixels& meshes, Team& team) {
     corners_.clear();
-    light({by, 0}, team, [&](int x, int y, WallRow& row) {
-        const std::size_t first = static_cast<std::size_t>(y) * meshes.stride + static_cast<std::size_t>(x);
-        const int count = std::min(kWallRow, width_ - x);
-        bool any = false;
-        for (int i = 0; i < kWallRow; ++i) {
-            const std::uint32_t number = i < count ? meshes.number[first + static_cast<std::size_t>(i)] : 0;
-            row.taken[i] = 0, row.away[i] = 1;
-            if (number == 0) continue;
-            any = true;
-            const SurfacePlane& plane = meshes.planes[number - 1];
-            row.away[i] = meshes.away[first + static_cast<std::size_t>(i)];
-            for (int c = 0; c < 3; ++c) row.normal[c][i] = plane.normal[c];
-            row.taken[i] = row.tone[i] = 1;
-            row.wall[i] = row.container[i] = 0;
-        }
-        return any;
-    });
+    const auto place = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * meshes.stride + static_cast<std::size_t>(x);
+    };
+    light(
+        {by, 0}, team,
+        [&](int x, int y, int count) { return any_of_row(meshes.number + place(x, y), count); },
+        [&](int x, int y, WallRow& row) {
+            const std::uint32_t* numbers = meshes.number + place(x, y);
+            const float* away = meshes.away + place(x, y);
+            const int count = std::min(kWallRow, width_ - x);
+            for (int i = 0; i < kWallRow; ++i) {
+                const std::uint32_t number = i < count ? numbers[i] : 0;
+                row.taken[i] = number ? 1 : 0, row.away[i] = number ? away[i] : 1;
+                row.tone[i] = 1, row.wall[i] = row.container[i] = 0;
+                if (number == 0) continue;
+                for (int c = 0; c < 3; ++c) row.normal[c][i] = meshes.planes[number - 1].normal[c];
+            }
+        });
 }
 
 void WallLight::darken(int y, std::uint32_t* pixels) const {

@@ -81,11 +81,11 @@ class WallLight {
         float corner_reach;
     };
 
-    template <class Fill>
-    void light(const Job& job, Team& team, const Fill& fill);
+    template <class Shows, class Fill>
+    void light(const Job& job, Team& team, const Shows& shows, const Fill& fill);
     void set_faces(const Sight& sight, const Lamp& lamp, const std::vector<WallFace>& faces);
     void number_row(int y);
-    bool fill_from_faces(const Sight& sight, int x, int y, WallRow& row) const;
+    void fill_from_faces(const Sight& sight, int x, int y, WallRow& row) const;
     void light_tile(const Job& job, int x, int y0, int rows, Worker& worker);
     static ViewSphere around(const Sight& sight, const Worker& worker, int rows);
     static void find_occluders(const LightTakers& by, const ViewSphere& tile, Worker& worker);
