@@ -88,8 +88,8 @@ double Ground::bend() const {
     const Vec3 ahead = level.normalized();
     Vec3 foot = middle_ + kBehind * size_ * ahead;
     foot += (map_.height() - foot.dot(up)) * up;
-    if (view_.orthographic)
-        return view_.forward.dot(up) > -kSteep ? nowhere : port_.y + view_.project(foot).y();
+    if (view_.orthographic && view_.forward.dot(up) > -kSteep) foot -= kBehind * size_ * ahead;  // edge-on
+    if (view_.orthographic) return port_.y + view_.project(foot).y();
     return view_.to_view(foot).z() > 0 ? port_.y + view_.project(foot).y() : -nowhere;
 }
 
