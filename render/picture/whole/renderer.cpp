@@ -123,8 +123,8 @@ struct Renderer::Impl {
     std::optional<WallLight> wall_light, mesh_light;  // of container and free walls, and of solid meshes
     std::optional<SpherePainter> ghost_painter;
     std::optional<Exposure> exposure;
-    bool stands = false;   // whether the ground knows the camera
-    bool started = false;  // whether the film has begun, so that start heights are known
+    bool ground_stands = false;  // whether the ground knows the camera
+    bool started = false;        // whether the film has begun, so that start heights are known
     ContainerShapes shapes;
     View eye;
     std::vector<PointForce> point_forces;
@@ -159,8 +159,8 @@ void Renderer::Impl::draw(const Shot& frame, const std::string& playback, double
     const View view = path.at(film_time);
     if (!started) start_from(frame);
     overlay.write(words, frame, playback, view);
-    if (ground && (path.moves() || !stands)) ground->stand(view);
-    stands = true;
+    if (ground && (path.moves() || !ground_stands)) ground->stand(view);
+    ground_stands = true;
     copy_words(into);
     meshes.colour_by(frame);
     watch.lap(&DrawTimes::overlay);
