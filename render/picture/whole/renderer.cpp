@@ -190,6 +190,7 @@ void Renderer::Impl::copy_words(Picture& into) const {
     const bool fits = into.width == words.width && into.height == words.height;
     if (!fits) into = words;
     if (layout.plates) {
+        copy(words, layout.caption, into);
         into.still = 0;
         return;
     }
@@ -199,6 +200,7 @@ void Renderer::Impl::copy_words(Picture& into) const {
     }
     copy(words, layout.first, into);
     copy(words, layout.second, into);
+    copy(words, layout.caption, into);
     into.still = overlay.still();
     into.moving = overlay.moving();
     into.moving.push_back(port);

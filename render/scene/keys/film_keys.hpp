@@ -65,6 +65,11 @@ void list_captions(keys::Keys& all);
 void read_captions(Document& document, FilmedScene& scene);  // call it after [run] is read
 void write_captions(SceneText& out, const FilmedScene& scene);
 
+// The own words of [film.wording]. Call it after `lang` is read and before plots are, whose labels follow.
+void list_wording(keys::Keys& all);
+void read_wording(Document& document, FilmedScene& scene);
+void write_wording(SceneText& out, const FilmedScene& scene);
+
 // The key `show` of [film]: which words and signs stand beside the grains.
 keys::BoundKey<Film> word_kinds_key();
 
