@@ -6,11 +6,14 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/files/measures_csv.hpp"
+#include "engine/measure/measures.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/page/embed.hpp"
 #include "render/page/facts/methods.hpp"
 #include "render/scene/filmed_scene.hpp"
+#include "render/scene/live_text.hpp"
 
 namespace grainreel {
 namespace {
@@ -245,21 +248,44 @@ std::string bed_about(const PageBed& bed, const PageMeshes& meshes, const Filmed
     return html_text(text);
 }
 
-std::string story_html(const FilmedScene& scene) {
+namespace {
+
+// The caption's text with the values that the film shows: those of the last row up to its first moment.
+// Values that are not known yet are dashes.
+std::string text_of_caption(const FilmCaption& caption, const MeasureTable* measures) {
+    if (caption.words.empty()) return caption.text;
+    std::size_t rows = 0;
+    if (measures != nullptr) {
+        const std::vector<double> times = measures->all("time_s");
+        const double until = caption.from * (1 + 1e-9) + 1e-12;
+        rows = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), until) - times.begin());
+    }
+    return live_text(caption.words, [&](const std::string& name) -> std::optional<double> {
+        const std::optional<std::size_t> column = rows > 0 ? measures->find(name) : std::nullopt;
+        if (!column) return std::nullopt;
+        return measures->values(*column, rows - 1, rows).front();
+    });
+}
+
+}  // namespace
+
+std::string story_html(const FilmedScene& scene, const fs::path& folder) {
     if (scene.film.captions.empty()) return "";
+    const std::shared_ptr<const MeasureTable> measures =
+        has_values(scene.film.captions) ? read_measures(folder / "measures.csv") : nullptr;
     std::string html = "<ol class=\"story\">\n";
     for (const FilmCaption& caption : scene.film.captions)
         html += fmt::format(
             "<li data-from=\"{0:.9g}\" data-until=\"{1:.9g}\"><button type=\"button\" class=\"no-print\" "
             "data-time=\"{0:.9g}\">{0:.4g} s</button> <span>{2}</span></li>\n",
-            caption.from, caption.to, html_text(caption.text));
+            caption.from, caption.to, html_text(text_of_caption(caption, measures.get())));
     return chapter("What to look at", html + "</ol>\n");
 }
 
 std::string chapters_html(const FilmedScene& scene, const ReadRunJson& run,
                           const std::optional<PlannedScene>& planned, const fs::path& folder,
                           const std::string& page_name, const std::string& n) {
-    std::string html = story_html(scene);
+    std::string html = story_html(scene, folder);
     if (planned) {
         html += chapter("What was computed", plan_html(*planned));
         const Methods text = methods(scene, planned->plan, run.record, planned->lines);

@@ -30,8 +30,9 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
 // Says which of the bed's moments the page has, and how exact they are.
 std::string bed_about(const PageBed& bed, const PageMeshes& meshes, const FilmedScene& scene);
 
-// The scene's captions as buttons that go to their moments; empty without captions.
-std::string story_html(const FilmedScene& scene);
+// The scene's captions as buttons that go to their moments, with the values of measures.csv in the run's
+// folder; empty without captions.
+std::string story_html(const FilmedScene& scene, const std::filesystem::path& folder);
 
 // The chapters: the plan in words, contacts, methods and sources, provenance, scene and files. page_name:
 // name of the page in the run's folder; without it there are no links to the folder's files. n: ending of the

@@ -87,13 +87,19 @@ struct GrainColouring {
     GrainValue by = GrainValue::species;
     // The following have no meaning when grains are coloured by species.
     ColourMap map = ColourMap::viridis;
-    std::array<double, 2> range{0, 1};  // SI: range of the quantity for the whole film
-    bool fixed = false;                 // the range is the user's
-    std::string unit;                   // unit on the colour bar; empty for pure numbers
-    int layers = 5;                     // bands of start_height
-    bool as_field = false;              // shows means as a layer in front of pale grains
-    bool logarithmic = false;           // equal ratios have equal distances on the bar; the range is positive
+    std::array<double, 2> range{0, 1};   // SI: range of the quantity for the whole film
+    bool fixed = false;                  // the range is the user's
+    std::string unit;                    // unit on the colour bar; empty for pure numbers
+    int layers = 5;                      // bands of start_height
+    bool as_field = false;               // shows means as a layer in front of pale grains
+    std::vector<std::size_t> species{};  // the species that are coloured by it; empty: all
+    bool logarithmic = false;  // equal ratios have equal distances on the bar; the range is positive
     bool of_grains() const { return by != GrainValue::species && !as_field; }
+    // Whether the colours of this species' grains stand for a quantity.
+    bool colours(std::size_t one) const {
+        return of_grains() &&
+               (species.empty() || std::find(species.begin(), species.end(), one) != species.end());
+    }
     bool of_field() const { return by != GrainValue::species && as_field; }
     bool operator==(const GrainColouring&) const = default;
 };
@@ -222,8 +228,7 @@ inline bool needs_measures(const FilmShows& look) {
     return look.wall_forces.wanted ||
            std::any_of(look.plots.begin(), look.plots.end(),
                        [](const FilmPlot& plot) { return !plot.is_profile(); }) ||
-           std::any_of(look.live_words.begin(), look.live_words.end(),
-                       [](const LiveWords& part) { return !part.column.empty(); });
+           has_values(look.live_words);
 }
 inline bool needs_touches(const FilmShows& look) {
     return look.force_chains || shows_value(look, GrainValue::coordination) ||
@@ -244,6 +249,8 @@ struct FilmSegment {
     double playback = 1;  // motion: simulated seconds for each second of film (0.1 = ten times slower)
     int every = 1;        // locked: one frame every 1, 2 or 4 periods
     double phase = 0;     // locked: turns, the phase of these frames
+    // locked: number of pictures between two of these frames, with the grains on the straight way.
+    int between = 0;
     // A picture may show what happened up to its moment: by `average` or by `exposure`, but not by both.
     int average = 0;      // number of periods over which mean places of grains are drawn; 0: none
     double exposure = 0;  // s for which the shutter is open; 0: one moment
@@ -255,13 +262,19 @@ struct FilmSegment {
 struct FilmCaption {
     double from = 0, to = 0;  // s of simulated time
     std::string text;
-    double hold = 0;  // s of film for which the picture stands still when the caption appears
+    double hold = 0;                 // s of film for which the picture stands still when the caption appears
+    std::vector<LiveWords> words{};  // the parts of the text; empty: it is shown as it is
     bool operator==(const FilmCaption&) const = default;
 };
 // Whether a caption is shown at a simulated time, s. A frame that is early by rounding shows it.
 inline bool shows_caption(const FilmCaption& caption, double time) {
     constexpr double rounding = 1e-9;
     return time >= caption.from - rounding && time < caption.to - rounding;
+}
+
+inline bool has_values(const std::vector<FilmCaption>& captions) {
+    return std::any_of(captions.begin(), captions.end(),
+                       [](const FilmCaption& caption) { return has_values(caption.words); });
 }
 
 // Words beside a grain.
@@ -339,6 +352,11 @@ struct Film {
     std::string purpose;                   // the purpose whose defaults were taken ("journal"); empty: none
     bool operator==(const Film&) const = default;
 };
+
+// See needs_measures(const FilmShows&); captions too may show values.
+inline bool needs_measures(const Film& film) {
+    return needs_measures(film.shows) || has_values(film.captions);
+}
 
 // Reads "#rrggbb", black, white, grey, or a name of Okabe and Ito's palette (2008, jfly.uni-koeln.de/color),
 // whose colours the colour-blind can tell apart too.

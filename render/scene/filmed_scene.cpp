@@ -36,6 +36,8 @@ Wishes wishes_of(const FilmedScene& scene) {
     if (shows_wear(scene)) take_instrument("wear");
     for (const FilmPlot& plot : shows.plots) take(plot.column);
     for (const LiveWords& words : shows.live_words) take(words.column);
+    for (const FilmCaption& caption : scene.film.captions)
+        for (const LiveWords& words : caption.words) take(words.column);
     wishes.orientation = scene.film.look.rotation;
     return wishes;
 }

@@ -33,8 +33,14 @@ LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& 
     LiveWords value;
     value.column = column->name;
     if (column->dimension == Dimension::number) {
+        if (colon != std::string::npos && inside.substr(colon + 1) == "%") {
+            value.unit = "%";
+            value.unit_size = 0.01;
+            return value;
+        }
         if (colon != std::string::npos)
-            throw UserError(fmt::format("gives {{{}}} a unit, but it is a pure number; leave it out", name));
+            throw UserError(
+                fmt::format("gives {{{}}} a unit, but it is a pure number; leave it out, or write %", name));
         return value;
     }
     const std::string own = unit_in_name(*column);

@@ -1,7 +1,8 @@
 // Words of the user's own with values that change from frame to frame:
 //   "mixing {lacey}\nkinetic energy {kinetic:mJ}"
 // A value is a column of measures.csv, named with or without its unit, and has three significant digits.
-// After a colon stands the unit in which it is shown; without a colon, that is the unit in the column's name.
+// After a colon stands the unit in which it is shown, % for a pure number; without a colon, that is the unit
+// in the column's name.
 // "{{" stands for a brace.
 #pragma once
 
@@ -21,6 +22,12 @@ struct LiveWords {
     double unit_size = 1;  // SI
     bool operator==(const LiveWords&) const = default;
 };
+
+inline bool has_values(const std::vector<LiveWords>& all) {
+    for (const LiveWords& part : all)
+        if (!part.column.empty()) return true;
+    return false;
+}
 
 // The column that a name means, with or without its unit ("kinetic_J", "kinetic"); null when there is none.
 // The columns that count steps and time are not searched.

@@ -33,6 +33,8 @@ enum class Word {
     on_average,          // on average {1}
     frame_a_period,      // 1 frame a period at phase {1}
     frame_every,         // 1 frame every {1} periods at phase {2}
+    moment_a_period,     // 1 moment a period at phase {1}
+    moment_every,        // 1 moment every {1} periods at phase {2}
     plays,               // plays {1}×
     mean_of_a_period,    // mean of a period
     mean_of_periods,     // mean of {1} periods

@@ -293,5 +293,18 @@ TEST(Ticks, AreRoundAndInside) {
     EXPECT_GT(high, low);
 }
 
+// One species is coloured by its speed; the other keeps its own colour, and is not counted beyond the range.
+TEST(GrainColours, MayBeThoseOfSomeSpeciesOnly) {
+    FilmedScene scene = coloured(GrainValue::speed, 0, 0.8, "");
+    scene.film.shows.colour.species = {0};
+    scene.colours.at(1) = {0.2, 0.4, 0.6};
+    Shot frame = two_balls();
+    frame.velocity[1] = {0, 0, 9};
+    GrainColours colours(scene);
+    expect_albedo(colours, frame, 0, colour_of(ColourMap::viridis, 0.5 / 0.8));
+    expect_albedo(colours, frame, 1, {0.2, 0.4, 0.6});
+    EXPECT_EQ(colours.clipped().above, 0);
+}
+
 }  // namespace
 }  // namespace grainreel::test

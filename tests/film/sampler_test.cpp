@@ -374,5 +374,48 @@ TEST(AveragedSteps, DivideWholePeriodsEvenly) {
     EXPECT_THAT(playback_caption(rule, drive_of(10), 30), HasSubstr(", mean of 2 periods"));
 }
 
+// One locked moment a period of 1,000 steps; two pictures stand between two of them, the last steps before
+// the later.
+TEST(PicturesBetween, AreTakenJustBeforeTheLaterLockedMoment) {
+    const Clock clock = clock_of(10, 1000);
+    FilmSegment rule = locked({}, 1, 0.25);
+    rule.between = 2;
+    const Film film = film_of({rule});
+    const std::vector<Due> shots = schedule_of(film, clock, 3000);
+    std::vector<std::int64_t> steps;
+    for (const Due& shot : shots) steps.push_back(shot.step);
+    EXPECT_THAT(steps, ElementsAre(250, 1248, 1249, 1250, 2248, 2249, 2250));
+    EXPECT_EQ(count_film(scene_with(film), clock, 3000).at(0).shots, 7);
+    EXPECT_FALSE(way_between({1250, 0}, rule, clock));
+    EXPECT_FALSE(way_between({1247, 0}, rule, clock));
+    const Way first = way_between({1248, 0}, rule, clock).value(),
+              second = way_between({1249, 0}, rule, clock).value();
+    EXPECT_EQ(first.from, 250);
+    EXPECT_DOUBLE_EQ(first.share, 1.0 / 3);
+    EXPECT_EQ(second.from, 250);
+    EXPECT_DOUBLE_EQ(second.share, 2.0 / 3);
+    EXPECT_EQ(way_between({4248, 0}, rule, clock, 2)->from, 2250)
+        << "a bed that repeats itself every second period";
+    EXPECT_EQ(playback_caption(rule, drive_of(10), 30), "1 moment a period at phase 0.25 (plays 1×)");
+}
+
+TEST(PicturesBetween, StandBeforeTheMomentsOfADriveThatChanges) {
+    FilmSegment rule = locked({}, 1, 0);
+    rule.between = 1;
+    const Film film = film_of({rule});
+    FilmedScene scene = scene_with(film);
+    scene.drive = changing_drive();
+    const Clock clock = changing_clock(scene.drive);
+    const std::vector<Due> shots = film_schedule(scene, clock, 40000);
+    ASSERT_GT(shots.size(), 10u);
+    for (std::size_t i = 2; i < shots.size(); i += 2) {
+        EXPECT_EQ(shots[i - 1].step, shots[i].step - 1);
+        const std::optional<Way> way = way_between(shots[i - 1], rule, clock);
+        ASSERT_TRUE(way);
+        EXPECT_EQ(way->from, shots[i - 2].step);
+        EXPECT_EQ(way->share, 0.5);
+    }
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -86,5 +86,17 @@ TEST(Timeline, MotionTakesTheNearestStepAndNeverOneBeyondTheEnd) {
     EXPECT_EQ(shots.back().step, 70);  // of 77
 }
 
+TEST(Timeline, KeepsPicturesBetweenLockedMomentsInStep) {
+    Film film;
+    film.segments = {locked(0.25)};
+    film.segments[0].between = 2;
+    const Clock a = clock_of(20, 800), b = clock_of(20, 1360);
+    const std::vector<Instant> instants = instants_of(scene_with(film), a, 2400);
+    const std::vector<Due> of_b = shots_at(instants, film.segments, b, 4080);
+    ASSERT_EQ(of_b.size(), 7u);
+    for (std::size_t i = 1; i < of_b.size(); ++i)
+        EXPECT_EQ(steps_ahead(of_b[i], film.segments[0], b), static_cast<std::int64_t>((3 - i % 3) % 3)) << i;
+}
+
 }  // namespace
 }  // namespace grainreel

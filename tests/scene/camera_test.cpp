@@ -119,5 +119,14 @@ TEST(CameraKeys, WhatCannotBeShownIsSaid) {
                 tells_only({"test.toml:30:1", "'exaggerate'", "all move together", "take it out"}));
 }
 
+// A slope is seen as a slope.
+TEST(CameraKeys, UpIsAgainstGravityUnlessTheSceneSaysOtherwise) {
+    const auto up = [](const Assignments& sets) { return read_text(wedge_text, sets).film.camera.up; };
+    EXPECT_EQ(up({}), Vec3(0, 0, 1));
+    EXPECT_LT((up({"gravity=[0, 6, -8]"}) - Vec3(0, -0.6, 0.8)).norm(), 1e-15);
+    EXPECT_EQ(up({"gravity=[0, 6, -8]", "film.camera.up=[0, 0, 2]"}), Vec3(0, 0, 1));
+    EXPECT_EQ(read_text(box_text).film.camera.up, Vec3(0, 0, 1)) << "without gravity";
+}
+
 }  // namespace
 }  // namespace grainreel

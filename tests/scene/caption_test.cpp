@@ -55,5 +55,24 @@ TEST(Captions, MistakesAreToldWordForWord) {
     }
 }
 
+TEST(Captions, MayHoldMeasuredValues) {
+    const FilmedScene scene =
+        read_text(captioned("[[film.caption]]\nfrom = 1\ntext = \"{{mixed}: {lacey:%} at {kinetic:mJ}\"\n"));
+    const std::vector<LiveWords>& words = scene.film.captions.at(0).words;
+    ASSERT_EQ(words.size(), 2u);
+    EXPECT_EQ(words[0], (LiveWords{"{mixed}: ", "lacey", "%", 0.01}));
+    EXPECT_EQ(words[1].column, "kinetic_J");
+    EXPECT_TRUE(needs_measures(scene.film) && !needs_measures(scene.film.shows));
+    const FilmedScene back = read_filmed_scene_text(resolved_scene(scene, make_plan(scene)), "scene.toml", {},
+                                                    [&](const Scene&) { return scene.measurable; });
+    EXPECT_EQ(back.film.captions, scene.film.captions);
+    try {
+        read_text(captioned("[[film.caption]]\nfrom = 1\ntext = \"{warmth}\"\n"));
+        ADD_FAILURE() << "a column that is not there was accepted";
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("{warmth}"), std::string::npos) << error.what();
+    }
+}
+
 }  // namespace
 }  // namespace grainreel

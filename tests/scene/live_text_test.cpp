@@ -29,6 +29,7 @@ TEST(LiveText, ShowsValuesInTheirUnits) {
     EXPECT_EQ(shown("mixing {lacey} of 1", 0.81234), "mixing 0.812 of 1");
     EXPECT_EQ(shown("{kinetic_J}\n{kinetic:mJ}", 0.0123), "0.0123 J\n12.3 mJ");
     EXPECT_EQ(shown("{height_difference}", -0.25), "−0.25");
+    EXPECT_EQ(shown("{big_in_top_quarter:%}", 0.951), "95.1 %");
     EXPECT_EQ(shown("{{lacey} {lacey}", 0.5), "{lacey} 0.5");
     EXPECT_EQ(shown("{kinetic}", std::nullopt), "– J");
     EXPECT_EQ(shown("{lacey} {unlike_neighbours}", std::nan("")),

@@ -88,6 +88,9 @@ void print_plan(const FilmedScene& scene, const Plan& plan, std::ostream& out) {
     for (std::string& line : film_warnings(scene, frames_of(film))) warnings.push_back(std::move(line));
     if (!warnings.empty()) list.gap();
     for (const std::string& line : warnings) list.line("warning", line);
+    const std::vector<std::string> hints = film_hints(scene);
+    if (!hints.empty() && warnings.empty()) list.gap();
+    for (const std::string& line : hints) list.line("hint", line);
 }
 
 PlanWords plan_words(const FilmedScene& scene, const Plan& plan) {

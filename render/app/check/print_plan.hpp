@@ -66,4 +66,7 @@ void print_cost(const FilmedScene& scene, const Plan& plan, const std::vector<Se
 
 std::int64_t frames_of(const std::vector<SegmentCount>& film);
 
+// What the film may fail to show, and the key that helps.
+std::vector<std::string> film_hints(const FilmedScene& scene);
+
 }  // namespace grainreel

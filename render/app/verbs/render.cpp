@@ -74,6 +74,20 @@ class Render final : public Verb {
                                              "files of another program, to a PNG file")
                                  ->type_name("N")
                                  ->excludes(at);
+        CLI::Option* cycle =
+            parser
+                .add_option("--cycle", request_.cycle,
+                            "Draw only this moment, in periods of the drive, as in 40, to a PNG file")
+                ->type_name("N")
+                ->check(number_within(0, 1e9))
+                ->excludes(at)
+                ->excludes(frame);
+        parser
+            .add_option("--phase", request_.phase,
+                        "With --cycle: part of the period that has passed, from 0 to 1 [0]")
+            ->type_name("TURNS")
+            ->check(number_within(0, 1))
+            ->needs(cycle);
         add_print_size(parser, request_.print);
         add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
@@ -85,22 +99,22 @@ class Render final : public Verb {
         add_time(parser, "--idle", idle_,
                  "With --follow: end the film after this time without a new frame, as in 30s [60 s]")
             ->needs(follow);
-        for (CLI::Option* other : {at, frame, from, to, every}) follow->excludes(other);
+        for (CLI::Option* other : {at, frame, cycle, from, to, every}) follow->excludes(other);
         add_parts(parser, request_.parts, slurm_);
         for (const char* other : {"--part", "--parts", "--slurm"})
-            for (CLI::Option* one : {follow, at, frame}) one->excludes(parser.get_option(other));
+            for (CLI::Option* one : {follow, at, frame, cycle}) one->excludes(parser.get_option(other));
         add_film(
             parser, film_,
             "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
         for (CLI::Option* other :
              {from, to, every, parser.get_option("--frames"), parser.get_option("--no-film")})
-            at->excludes(other), frame->excludes(other);
+            for (CLI::Option* one : {at, frame, cycle}) one->excludes(other);
         add_reporting(parser, report);
     }
 
     int run(Reporter& reporter) override {
         film_.command = command;
-        check_print_size(request_.print, is_still(), "--at or --frame");
+        check_print_size(request_.print, is_still(), "--at, --frame or --cycle");
         check_idle();
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
@@ -137,7 +151,7 @@ class Render final : public Verb {
 
     double idle() const { return idle_.value_or(60); }
 
-    bool is_still() const { return request_.at || request_.frame; }
+    bool is_still() const { return request_.at || request_.frame || request_.cycle; }
 
     int follow(Reporter& reporter) const {
         const bool handed_over = is_handover(request_.run);
@@ -155,8 +169,9 @@ class Render final : public Verb {
         return tell_folder(film.run(), film_);
     }
 
-    int draw_one(Reporter& reporter) const {
+    int draw_one(Reporter& reporter) {
         StoredShots source(request_.run, sets_for_still(request_.sets), request_.replay);
+        if (request_.cycle) request_.at = time_of_cycle(request_, source.clock(), source.span().to);
         keep_camera_file(camera_, source.scene().film.camera);
         const auto file = draw_still(film_, request_, reporter, source);
         if (!file) return signal_base + reporter.stop_signal();

@@ -165,12 +165,13 @@ void add_caption(FilmedScene& scene, double time, const std::string& text) {
                                    [&](const FilmCaption& caption) { return caption.from >= time; });
     if (next != captions.end() && next->from == time) {
         next->text += "\n" + text;
+        if (!next->words.empty()) next->words.push_back({"\n" + text, "", "", 1});
         return;
     }
     double end = std::min(time + shown_for, scene.run.duration);
     if (next != captions.end()) end = std::min(end, next->from);
     if (next != captions.begin()) (next - 1)->to = std::min((next - 1)->to, time);
-    captions.insert(next, {time, end, text, 0});
+    captions.insert(next, {time, end, text, 0, {}});
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ struct Stretch {
     std::int64_t every = 0;
     double cycles = 0;       // cycles at the first shot; for segments locked to a drive that changes
     int periods = 0;         // periods between shots of a locked segment; else 0
+    int between = 0;         // pictures between two shots of a locked segment
     std::int64_t stop = 0;   // first step behind the segment
     std::int64_t count = 0;  // number of shots, at most: motion may round two to one step
 };
@@ -121,7 +122,10 @@ std::vector<Stretch> stretches_of(const FilmedScene& scene, const Clock& clock, 
                             "give the scene a drive, or make it a motion segment",
                             scene.where(fmt::format("film.segment[{}]", i)), i + 1));
         }
-        stretches.back().segment = static_cast<int>(i);
+        Stretch& stretch = stretches.back();
+        stretch.segment = static_cast<int>(i);
+        if (segments[i].kind == FilmSegment::Kind::locked) stretch.between = segments[i].between;
+        if (stretch.count > 0) stretch.count += (stretch.count - 1) * stretch.between;
         start = ends[i];
     }
     return stretches;
@@ -139,7 +143,9 @@ void make(const Stretch& stretch, const Clock& clock, std::vector<Due>& shots) {
             at = (stretch.start + static_cast<double>(k) * stretch.frame) / clock.step;
         if (at >= static_cast<double>(stretch.stop) - 0.5) return;
         const std::int64_t step = std::llround(at);
-        if (shots.empty() || step > shots.back().step) shots.push_back({step, stretch.segment});
+        for (std::int64_t ahead = k > 0 ? stretch.between : 0; ahead >= 0; --ahead)
+            if (shots.empty() || step - ahead > shots.back().step)
+                shots.push_back({step - ahead, stretch.segment});
     }
 }
 
@@ -188,12 +194,16 @@ std::string pace_words(const FilmSegment& segment, const Drive& drive, double fi
         if (segment.playback > 1) return say(Word::time_lapse, {fmt::format("{:.4g}", segment.playback)});
         return say(Word::slow_motion, {speed_words(segment.playback)});
     }
+    // With pictures on the way from one locked moment to the next, there are more frames than moments.
+    const bool between = segment.between > 0;
     const std::string phase = fmt::format("{:.3g}", segment.phase);
     const std::string often = segment.every == 1
-                                  ? say(Word::frame_a_period, {phase})
-                                  : say(Word::frame_every, {std::to_string(segment.every), phase});
+                                  ? say(between ? Word::moment_a_period : Word::frame_a_period, {phase})
+                                  : say(between ? Word::moment_every : Word::frame_every,
+                                        {std::to_string(segment.every), phase});
     if (drive.changes()) return often;
-    const std::string pace = fmt::format("{:.4g}", film_rate * segment.every / drive.frequency);
+    const std::string pace = fmt::format(
+        "{:.4g}", film_rate * segment.every / ((segment.between + 1) * drive.frequency));
     return fmt::format("{} ({})", often, say(Word::plays, {pace}));
 }
 
@@ -303,6 +313,22 @@ std::vector<std::int64_t> averaged_steps(const Due& shot, const FilmSegment& seg
     for (std::int64_t k = count; k >= 0; --k)
         steps.push_back(periods_before(shot.step, static_cast<double>(k) * spacing, clock));
     return steps;
+}
+
+std::int64_t steps_ahead(const Due& shot, const FilmSegment& segment, const Clock& clock) {
+    if (segment.between == 0 || !stays_in_phase(segment, clock)) return 0;
+    const double turns = segment.phase - clock.initial_phase, offset = turns - std::floor(turns);
+    const double periods = std::round(clock.cycles(shot.step) - offset);
+    const std::int64_t ahead = clock.step_at(periods + offset) - shot.step;
+    return ahead > 0 && ahead <= segment.between ? ahead : 0;
+}
+
+std::optional<Way> way_between(const Due& shot, const FilmSegment& segment, const Clock& clock, int periods) {
+    const std::int64_t ahead = steps_ahead(shot, segment, clock);
+    if (ahead == 0) return std::nullopt;
+    const double apart = spanning(segment, periods).every;
+    return Way{periods_before(shot.step + ahead, apart, clock),
+               1 - static_cast<double>(ahead) / (segment.between + 1)};
 }
 
 double poster_time(const Film& film, double duration) {

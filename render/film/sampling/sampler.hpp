@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,19 @@ std::vector<std::int64_t> exposed_steps(const Due& shot, const FilmSegment& segm
 // the next multiple of `periods`. They may lie before the run. Empty without a mean.
 std::vector<std::int64_t> averaged_steps(const Due& shot, const FilmSegment& segment, const Clock& clock,
                                          int periods = 1);
+
+// A picture between two locked ones shows the grains on the straight way from one to the other. It is taken
+// one or a few steps before the later one, at its phase but for these steps.
+struct Way {
+    std::int64_t from = 0;  // step of the earlier locked moment; it may lie before the run
+    double share = 0;       // of the way, between 0 and 1
+};
+// The way that the picture at `shot` shows; empty where it shows a locked moment itself, or motion. If the
+// bed repeats itself after `periods` periods, a whole multiple of them lies between the two locked moments.
+std::optional<Way> way_between(const Due& shot, const FilmSegment& segment, const Clock& clock,
+                               int periods = 1);
+// How many steps before its locked moment such a picture is taken; 0 for all other pictures.
+std::int64_t steps_ahead(const Due& shot, const FilmSegment& segment, const Clock& clock);
 
 // Time of the frame that stands for the whole film, in s of simulated time from the film's start. It is the
 // end of the last locked segment, since the result shows there at a known phase; without such a segment it is

@@ -47,9 +47,12 @@ std::size_t reference_of(const std::vector<FilmedScene>& scenes) {
 }
 
 std::vector<Instant> instants_of(const FilmedScene& film, const Clock& reference, std::int64_t steps) {
+    const std::vector<FilmSegment> segments = segments_of(film.film);
     std::vector<Instant> instants;
     for (const Due& shot : film_schedule(film, reference, steps))
-        instants.push_back({reference.time(shot.step), shot.segment});
+        instants.push_back(
+            {reference.time(shot.step), shot.segment,
+             steps_ahead(shot, segments.at(static_cast<std::size_t>(shot.segment)), reference)});
     return instants;
 }
 
@@ -59,9 +62,9 @@ std::vector<Due> shots_at(const std::vector<Instant>& instants, const std::vecto
     for (const Instant& instant : instants) {
         const FilmSegment& rule = segments.at(static_cast<std::size_t>(instant.segment));
         const bool locked = rule.kind == FilmSegment::Kind::locked && clock.steps_per_period > 0;
-        shots.push_back({locked ? nearest_step_at(rule.phase, instant.time, clock, steps)
-                                : nearest_step(instant.time, clock, steps),
-                         instant.segment});
+        const std::int64_t step = locked ? nearest_step_at(rule.phase, instant.time, clock, steps)
+                                         : nearest_step(instant.time, clock, steps);
+        shots.push_back({std::max<std::int64_t>(0, step - instant.ahead), instant.segment});
     }
     // Where segments meet, a phase may lie a little before the moment shown last.
     for (std::size_t i = 1; i < shots.size(); ++i) shots[i].step = std::max(shots[i].step, shots[i - 1].step);

@@ -14,8 +14,9 @@
 namespace grainreel {
 
 struct Instant {
-    double time = 0;  // s, simulated
-    int segment = 0;  // the film's segment
+    double time = 0;         // s, simulated
+    int segment = 0;         // the film's segment
+    std::int64_t ahead = 0;  // steps_ahead() of a picture between two locked moments
 };
 
 // The index of the scene whose drive the film follows. It is the driven scene with the longest period, so

@@ -84,6 +84,8 @@ void leave_out_measures(FilmedScene& scene, const std::string& why, Lines& lines
         shows.live_words.clear();
         left_out.emplace_back("live words");
     }
+    if (std::erase_if(scene.film.captions, [](const FilmCaption& one) { return has_values(one.words); }) > 0)
+        left_out.emplace_back("captions with values");
     lines.push_back(fmt::format("{}; {} are left out", why, fmt::join(left_out, " and ")));
 }
 
@@ -107,12 +109,14 @@ void check_columns(const FilmedScene& scene, const StoredRun& run) {
     need("time_s", "every run has");
     for (const FilmPlot& plot : scene.film.shows.plots) need(plot.column, "film.plot shows");
     for (const LiveWords& part : scene.film.shows.live_words) need(part.column, "film.text shows");
+    for (const FilmCaption& caption : scene.film.captions)
+        for (const LiveWords& part : caption.words) need(part.column, "film.caption shows");
     if (!scene.film.shows.wall_forces.wanted) return;
     for (const std::string& face : face_names(scene)) need(face + "_force_z_N", "film.wall_forces shows");
 }
 
 void look_at_measures(FilmedScene& scene, const StoredRun& run, Lines& lines) {
-    if (!needs_measures(scene.film.shows)) return;
+    if (!needs_measures(scene.film)) return;
     const bool rows = run.measures() && run.measures()->rows() > 0;
     const std::optional<Lack> lack = run.lack_of(Part::measures);
     if (!rows) return leave_out_measures(scene, lack->what, lines);

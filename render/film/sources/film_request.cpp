@@ -50,6 +50,16 @@ ThreadPlan drawing_threads(int wanted) {
     return {0, raster, std::max(1, processors - raster)};
 }
 
+double time_of_cycle(const RenderRequest& what, const Clock& clock, double last) {
+    if (clock.steps_per_period == 0) throw UserError("--cycle: the run has no drive; give --at TIME");
+    const double cycles = *what.cycle + what.phase;
+    const std::int64_t step = clock.step_at(cycles), end = std::llround(last / clock.step);
+    if (step > end)
+        throw UserError(fmt::format("--cycle: {:.6g} periods come after the run, which has {:.6g}", cycles,
+                                    clock.cycles(end)));
+    return clock.time(step);
+}
+
 void check_times(const RenderRequest& what, const StateArchive& run, double last) {
     if (what.from) run.check_time("--from", *what.from, last, run.usual_slack(*what.from));
     if (what.to) run.check_time("--to", *what.to, last, run.usual_slack(*what.to));

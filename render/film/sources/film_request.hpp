@@ -50,8 +50,11 @@ struct RenderRequest {
     Assignments sets;              // values given to keys of its film
     std::optional<double> from, to, at;
     std::optional<std::int64_t> frame;  // in place of `at`: number of the film's frame, from 0
-    bool frame_of_file = false;         // `frame` counts the frames of another program's files
-    PrintSize print;                    // size of one picture
+    // In place of `at`: periods of the drive, and the part of the next one that has passed.
+    std::optional<double> cycle;
+    double phase = 0;
+    bool frame_of_file = false;  // `frame` counts the frames of another program's files
+    PrintSize print;             // size of one picture
     // Draws one in `every` kept frames of the trajectory. None: draws the pictures of the film.
     std::optional<int> every;
     bool replay = true;  // moments that were not kept are brought back
@@ -85,6 +88,10 @@ ThreadPlan plan_threads(int processors, bool film, std::int64_t grains);
 
 // Plans the threads of a film that has the machine for itself. wanted: 0 for as many as the machine gives.
 ThreadPlan drawing_threads(int wanted);
+
+// s: the time at which `what.cycle` and `what.phase` periods have passed. Throws UserError where the run has
+// no drive or ends before.
+double time_of_cycle(const RenderRequest& what, const Clock& clock, double last);
 
 // Throws UserError when `from` or `to` lies outside the run, which ends at `last` (s), or `from` after `to`.
 // A time may be as far outside as kept moments are apart.

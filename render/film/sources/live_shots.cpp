@@ -63,7 +63,7 @@ FilmWishes LiveShots::wishes() {
     wishes.left_out = [this](std::int64_t step) { return due_at(step).empty(); };
     wishes.kept = wanted_moments();
     wishes.to_file = film_moments_bytes(scene_, driver_.plan(), std::ssize(shots_)) > 0;
-    wishes.keep_rows = needs_measures(scene_.film.shows);
+    wishes.keep_rows = needs_measures(scene_.film);
     wishes.key_moments = keys_wanted_;
     for (const FilmCaption& caption : scene_.film.captions) wishes.key_times.push_back(caption.from);
     return wishes;
@@ -82,17 +82,19 @@ KeptStates LiveShots::wanted_moments() const {
 
 std::optional<Taken> LiveShots::next(const GoOn& go_on) {
     if (std::optional<Taken> picture = waiting()) return picture;
-    if (earlier_) {
+    if (earlier_ && earlier_->next < driver_.frames_before()) {
         if (!go_on()) return std::nullopt;
-        if (earlier_->next < driver_.frames_before()) return next_earlier();
-        earlier_.reset();
+        return next_earlier();
     }
     const std::shared_ptr<State> frame = driver_.next(go_on);
     if (!frame) return std::nullopt;
     waiting_ = due_at(frame->step);
     Shot shot(std::move(*frame));
     parts_->add(shot, rule(waiting_.back().segment), bed_periods_->shown(), beside_now(shot.time),
-                [this](std::int64_t step) { return driver_.kept(step); });
+                [this](std::int64_t step) {
+                    StatePtr kept = driver_.kept(step);
+                    return kept ? kept : filed(step);
+                });
     frame_ = std::make_shared<const Shot>(std::move(shot));
     return waiting();
 }
@@ -101,7 +103,7 @@ Beside LiveShots::beside_now(double time) const {
     const FilmShows& shows = scene_.film.shows;
     Beside all;
     if (needs_touches(shows)) all.touches = touches_of(driver_.simulation());
-    if (needs_measures(shows)) {
+    if (needs_measures(scene_.film)) {
         all.measures = driver_.files()->measures();
         all.measure_rows = all.measures->rows();
     }
@@ -117,6 +119,18 @@ void LiveShots::read_earlier() {
     earlier_->moments = open_frames(driver_.folder() / kFilmMoments, {.format = "trajectory"});
     earlier_->steps = rows->all("step");
     earlier_->periods = MeasuredPeriods(*rows);
+}
+
+// A moment that the film of a resumed run showed before the run was broken off; null where there is none.
+StatePtr LiveShots::filed(std::int64_t step) const {
+    if (!earlier_) return nullptr;
+    const std::vector<State>& moments = earlier_->moments->moments();
+    const auto moment =
+        std::lower_bound(moments.begin(), moments.end(), step,
+                         [](const State& one, std::int64_t wanted) { return one.step < wanted; });
+    if (moment == moments.end() || moment->step != step) return nullptr;
+    const auto index = static_cast<std::size_t>(moment - moments.begin());
+    return std::make_shared<const State>(earlier_->moments->grains(index));
 }
 
 // Gives the next picture that the film of a resumed run had before the run was broken off, from the moment
@@ -142,7 +156,7 @@ Taken LiveShots::next_earlier() {
             earlier_->steps.begin());
     if (wear_before_) beside.worn = wear_before_->until(shot.time);
     parts_->add(shot, rule(due->segment), periods, std::move(beside),
-                [](std::int64_t) { return StatePtr(); });
+                [this](std::int64_t step) { return filed(step); });
     return {std::make_shared<const Shot>(std::move(shot)), due->segment, periods};
 }
 

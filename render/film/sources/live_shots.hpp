@@ -55,6 +55,7 @@ class LiveShots final : public ShotSource {
     Beside beside_now(double time) const;
     void read_earlier();
     Taken next_earlier();
+    StatePtr filed(std::int64_t step) const;
     void look_at_bed_periods(const SimulatedBed& simulation);
     void look_at_wear(const SimulatedBed& simulation);
     void read_wear_before();

@@ -137,4 +137,17 @@ void set_mean(State& frame, const std::vector<StatePtr>& moments, double span, d
     }
 }
 
+void set_on_way(State& frame, const State& before, double share, double depth) {
+    if (before.bodies.size() != frame.bodies.size()) return;
+    const std::vector<std::size_t> rows = rows_in(before, frame);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows[i] == kNoRow) continue;
+        const Vec3 back = way(frame.position[i], before.position[rows[i]], depth);
+        frame.position[i] += (1 - share) * back;
+        frame.position[i].x() = nearest_image(frame.position[i].x(), depth);
+    }
+    for (std::size_t b = 0; b < frame.bodies.size(); ++b)
+        frame.bodies[b].place += (1 - share) * (before.bodies[b].place - frame.bodies[b].place);
+}
+
 }  // namespace grainreel

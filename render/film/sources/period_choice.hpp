@@ -81,4 +81,9 @@ class MeasuredPeriods {
 // of bodies differs between the moments.
 void set_mean(State& frame, const std::vector<StatePtr>& moments, double span, double depth);
 
+// Puts grains and bodies on the straight way from where they were at an earlier moment to where they are.
+// share: of that way, from 0 to 1. depth: as above. A grain that was not there stays where it is. Nothing is
+// done if the number of bodies differs.
+void set_on_way(State& frame, const State& before, double share, double depth);
+
 }  // namespace grainreel

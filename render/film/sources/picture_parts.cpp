@@ -43,6 +43,8 @@ std::vector<WantedState> PictureParts::moments(std::int64_t step, const FilmSegm
     for (const std::int64_t one : exposed(step, rule, periods)) all.push_back({one, true});
     for (const std::int64_t one : averaged(step, rule, periods))
         if (std::max(one, first_) != step) all.push_back({std::max(one, first_), false});
+    if (const std::optional<Way> way = way_between({step, 0}, rule, clock_, periods))
+        all.push_back({std::max(way->from, first_), false});
     return all;
 }
 
@@ -60,6 +62,9 @@ void PictureParts::add(Shot& shot, const FilmSegment& rule, int periods, Beside 
     shot.measures = std::move(beside.measures);
     shot.measure_rows = beside.measure_rows;
     add_mean(shot, rule, periods, others);
+    if (const std::optional<Way> way = way_between({shot.step, 0}, rule, clock_, periods))
+        if (const StatePtr before = others(std::max(way->from, first_)))
+            set_on_way(shot, *before, way->share, depth_);
 }
 
 // Adds the mean. Before the run's first step the grains are taken to have been where they were at that step.

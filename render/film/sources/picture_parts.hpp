@@ -1,6 +1,6 @@
 // PictureParts is the one place that adds to a shot what its picture shows besides the moment itself:
 // displacements since an earlier period, the moments of an exposure, means over periods, contacts, measures
-// for plots and live words, and what has flowed out.
+// for plots and live words, what has flowed out, and the way from one locked moment to the next.
 #pragma once
 
 #include <cstddef>

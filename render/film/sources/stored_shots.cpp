@@ -44,7 +44,7 @@ StoredShots::StoredShots(const std::filesystem::path& folder, const Assignments&
       lacks_(fitted(scene_, run_)),
       parts_(scene_, run_.clock(), run_.moments().front().step),
       film_(run_, scene_, sets) {
-    if (needs_measures(scene_.film.shows) && run_.measures()) measured_ = run_.measures()->all("time_s");
+    if (needs_measures(scene_.film) && run_.measures()) measured_ = run_.measures()->all("time_s");
 }
 
 // An exposure and a mean want moments between the pictures, which no run keeps. Without checkpoints they are
@@ -177,7 +177,7 @@ StatePtr StoredShots::earlier(std::int64_t step) const {
 Beside StoredShots::beside(double time, std::optional<std::vector<Link>> touches) const {
     Beside all;
     all.touches = std::move(touches).value_or(std::vector<Link>());
-    if (needs_measures(scene_.film.shows)) {
+    if (needs_measures(scene_.film)) {
         const double end = time * (1 + 1e-9) + 1e-12;
         all.measures = run_.measures();
         all.measure_rows = static_cast<std::size_t>(

@@ -15,6 +15,7 @@ FilmColours::FilmColours(const FilmedScene& scene, const StateArchive& run, cons
       depth_(period_of_depth(scene.container)),
       frequency_(scene.drive.present ? scene.drive.highest_frequency() : 0),
       scale_(scene.film.shows.colour),
+      species_(scene.film.shows.colour.species),
       quantities_(scene, by_) {
     if (by_ == GrainValue::start_height) quantities_.start_from(run.grains(run.nearest(start)));
 }
@@ -59,6 +60,8 @@ std::vector<std::uint8_t> FilmColours::of(std::size_t index, Shot& frame,
     if (frame.spin.size() != frame.size()) frame.spin.assign(frame.size(), Vec3::Constant(std::nan("")));
     const std::vector<double>& values = quantities_.of(frame);
     std::transform(values.begin(), values.end(), bytes.begin(), [&](double value) { return byte_of(value); });
+    for (std::size_t i = 0; i < bytes.size() && !species_.empty(); ++i)
+        if (std::find(species_.begin(), species_.end(), frame.species[i]) == species_.end()) bytes[i] = 0;
     return bytes;
 }
 

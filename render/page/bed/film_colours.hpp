@@ -40,6 +40,7 @@ class FilmColours {
     const GrainValue by_;
     const double depth_, frequency_;  // period of a periodic container in m; frequency of the drive in Hz
     const ColourScale scale_;
+    const std::vector<std::size_t> species_;  // those that are coloured; the others have byte 0. Empty: all
     Quantities quantities_;
 };
 

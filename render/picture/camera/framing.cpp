@@ -148,7 +148,8 @@ FramedPart framed_part(const FilmedScene& scene) {
     const Container& container = scene.container;
     const bool all = scene.film.camera.frame == FramingScope::container ||
                      container.shape == Container::Shape::none || container.shape == Container::Shape::mesh ||
-                     container.turn || looks_steeply(scene.film.camera);
+                     container.turn || looks_steeply(scene.film.camera) ||
+                     scene.film.camera.up != Vec3(0, 0, 1);
     const std::optional<double> top = all ? std::nullopt : wanted_top(scene);
     if (!top) return whole_container(scene);
     const double height = container.height;

@@ -178,6 +178,9 @@ GrainColours::GrainColours(const FilmedScene& scene)
             steps_.push_back(to_albedo(pale ? mix(colour, pale_grain, 0.8) : colour));
         return;
     }
+    for (std::size_t i = 0; i < scene.species.size(); ++i)
+        own_.push_back(scene.film.shows.colour.colours(i) ? std::nullopt
+                                                          : std::optional(to_albedo(scene.colours.at(i))));
     const ColourScale scale(scene.film.shows.colour);
     low_ = scale.low();
     high_ = scale.high();
@@ -213,7 +216,9 @@ const std::vector<Albedo>& GrainColours::of(const Shot& frame) {
     }
     const std::vector<double>& values = quantities_.of(frame);
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        colours_[i] = of_value(values[i]);
+        const std::optional<Albedo>& own = own_.at(static_cast<std::size_t>(frame.species[i]));
+        colours_[i] = own ? *own : of_value(values[i]);
+        if (own) continue;
         clipped_.take(values[i], {low_, high_});
     }
     return colours_;

@@ -82,7 +82,7 @@ Albedo to_albedo(const Colour& colour);
 // species.
 inline constexpr Colour neutral_grain{0.62, 0.62, 0.62};  // sRGB
 
-// The albedo of every grain: by species, or by a quantity through a colour map.
+// The albedo of every grain: by species, or by a quantity through a colour map, for all species or for some.
 class GrainColours {
   public:
     explicit GrainColours(const FilmedScene& scene);
@@ -104,6 +104,7 @@ class GrainColours {
     double low_ = 0, high_ = 1;  // SI
     bool banded_ = false, logarithmic_ = false;
     ClippedCount clipped_;
+    std::vector<std::optional<Albedo>> own_;  // by species: its own colour, if no quantity colours it
     std::vector<Albedo> steps_;  // one for each species, each band or each step of the colour map
     std::vector<Albedo> colours_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/picture/words/captions.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -26,7 +28,7 @@ CaptionPlan plan_with(const Film& film, double letters, double width) {
     const double line = measure_text("0", style_of(letters)).height, inner = inner_width(width, plan.margin);
     const int most = std::max(1, static_cast<int>((most_band * film.height - 2 * plan.margin) / line));
     for (const FilmCaption& caption : film.captions) {
-        const double high = measure_text(caption.text, style_of(letters), inner, 100).height;
+        const double high = measure_text(longest_caption(caption), style_of(letters), inner, 100).height;
         plan.cut = plan.cut || high > (most + 0.5) * line;
         plan.height = std::max(plan.height, std::min(high, most * line));
     }

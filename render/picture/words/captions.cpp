@@ -168,11 +168,38 @@ std::string joined(const std::string& note, const std::string& caption) {
     return note.empty() || caption.empty() ? note + caption : note + "\n\n" + caption;
 }
 
+namespace {
+
+// The words with the values of the frame's last row of measures.
+std::string text_now(const std::vector<LiveWords>& words, const Shot& frame) {
+    return live_text(words, [&](const std::string& name) -> std::optional<double> {
+        if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
+        const std::vector<std::string>& columns = frame.measures->columns();
+        const auto column = std::find(columns.begin(), columns.end(), name);
+        GRAINREEL_CHECK(column != columns.end());
+        return frame.measures
+            ->values(static_cast<std::size_t>(column - columns.begin()), frame.measure_rows - 1,
+                     frame.measure_rows)
+            .front();
+    });
+}
+
+std::string longest_text(const std::vector<LiveWords>& words) {
+    return live_text(words, [](const std::string&) { return std::optional(-1.23e-4); });
+}
+
+}  // namespace
+
 std::string caption_at(const Film& film, const Shot& frame) {
     if (!film.word_kinds.captions) return {};
     for (const FilmCaption& caption : film.captions)
-        if (shows_caption(caption, frame.time)) return caption.text;
+        if (shows_caption(caption, frame.time))
+            return caption.words.empty() ? caption.text : text_now(caption.words, frame);
     return {};
+}
+
+std::string longest_caption(const FilmCaption& caption) {
+    return caption.words.empty() ? caption.text : longest_text(caption.words);
 }
 
 namespace {
@@ -198,25 +225,14 @@ std::string outflow_text(const FilmedScene& scene, const FlowedOut& out) {
 }  // namespace
 
 std::string note_text(const FilmedScene& scene, const Shot& frame) {
-    const std::string text =
-        live_text(scene.film.shows.live_words, [&](const std::string& name) -> std::optional<double> {
-            if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
-            const std::vector<std::string>& columns = frame.measures->columns();
-            const auto found = std::find(columns.begin(), columns.end(), name);
-            GRAINREEL_CHECK(found != columns.end());
-            return frame.measures
-                ->values(static_cast<std::size_t>(found - columns.begin()), frame.measure_rows - 1,
-                         frame.measure_rows)
-                .front();
-        });
+    const std::string text = text_now(scene.film.shows.live_words, frame);
     const bool flows = scene.film.word_kinds.counts && frame.flowed_out && frame.flowed_out->grains > 0;
     const std::string out = flows ? outflow_text(scene, *frame.flowed_out) : "";
     return joined(out, text);
 }
 
 std::string longest_note(const FilmedScene& scene) {
-    const std::string text =
-        live_text(scene.film.shows.live_words, [](const std::string&) { return std::optional(-1.23e-4); });
+    const std::string text = longest_text(scene.film.shows.live_words);
     const FlowedOut most{scene.grains(), 0.888};
     const bool flows = scene.film.shows.outflow && scene.film.word_kinds.counts;
     return joined(flows ? outflow_text(scene, most) : "", text);

@@ -51,6 +51,8 @@ std::string note_text(const FilmedScene& scene, const Shot& frame);
 std::string longest_note(const FilmedScene& scene);
 // The caption that is shown at the frame's time; empty for none.
 std::string caption_at(const Film& film, const Shot& frame);
+// The caption, with values about as long as they get.
+std::string longest_caption(const FilmCaption& caption);
 // A note with a caption below it.
 std::string joined(const std::string& note, const std::string& caption);
 constexpr int note_lines = 3;  // lines of the gutter that each line of a note may take

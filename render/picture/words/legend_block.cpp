@@ -155,13 +155,14 @@ class Entries {
     // one that only walls have.
     void draw_ball(std::size_t i, double x, double y, double radius) const {
         const GrainColouring& colouring = scene_.film.shows.colour;
-        if (colouring.of_grains() && scene_.species[i].all() > 0) {
+        if (colouring.colours(i) && scene_.species[i].all() > 0) {
             const ColourScale scale(colouring);
             return draw_lit_ball(writer_.on, x, y, radius,
                                  [&](double share) { return scale.at_share(share); });
         }
-        const Colour own =
-            colouring.by == GrainValue::species ? scene_.colours[i] : neutral_grain;
+        const bool plain = colouring.by == GrainValue::species ||
+                           (colouring.of_grains() && !colouring.colours(i));
+        const Colour own = plain ? scene_.colours[i] : neutral_grain;
         draw_lit_ball(writer_.on, x, y, radius, [&](double) { return own; });
     }
 

@@ -32,12 +32,13 @@ const char* without_orbit(const Camera& camera) {
     return camera.orbit == 0 ? "without 'orbit' nothing turns" : nullptr;
 }
 
-// The upward direction: against gravity if gravity is horizontal, as in a drum that lies; otherwise z.
+// The upward direction: against gravity, so that a slope is seen as a slope; z without gravity and where it
+// points straight upwards.
 Vec3 usual_up(const Scene& scene) {
-    constexpr double kLevel = 0.1;
     const double gravity = scene.gravity.norm();
-    if (gravity <= 0 || std::abs(scene.gravity.z()) > kLevel * gravity) return {0, 0, 1};
-    return -scene.gravity / gravity;
+    const bool tilted = scene.gravity.x() != 0 || scene.gravity.y() != 0;
+    if (gravity <= 0 || !tilted) return {0, 0, 1};
+    return (Vec3(0, 0, 0) - scene.gravity) / gravity;  // so that no component is -0
 }
 
 enum Place { of_position, of_frame, of_angles };  // groups of keys, in the order in which they are written
@@ -78,7 +79,7 @@ const KeyTable<Camera>& camera_table() {
             .read_at(-2),
         vector("target", &C::target, Dimension::length, note("the container's middle"),
                "The middle of the picture, and what an orbit turns about."),
-        vector("up", &C::up, Dimension::number, note("[0, 0, 1]; against gravity where that is level"),
+        vector("up", &C::up, Dimension::number, note("against gravity"),
                "The picture's upward direction; azimuth is about it.")
             .usually([](C& camera, const Scene& scene) { camera.up = usual_up(scene); })
             .unwritten_if([](const C& camera) { return camera.up == Vec3(0, 0, 1); }),
@@ -149,7 +150,9 @@ void read_camera(Document& document, FilmedScene& scene) {
     camera_table().read(document, scene, "film.camera", camera);
     if (camera.up.norm() < 1e-9)
         document.fail("film.camera.up", "has no direction; write for example [0, 0, 1]");
-    if (document.has("film.camera.up")) camera.up.normalize();
+    // A written scene has a unit vector already, which must stay the same to the bit.
+    constexpr double rounding = 1e-12;
+    if (std::abs(camera.up.norm() - 1) > rounding) camera.up.normalize();
     if (const char* reason = beside_position(camera)) document.refuse("film.camera.key", reason);
     check_field_of_view(document, camera);
     read_moments(document, scene, camera);

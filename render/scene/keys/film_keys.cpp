@@ -308,6 +308,7 @@ void list_film(Keys& all) {
     list_cut(all);
     list_film_walls(all);
     list_camera(all);
+    list_length(all);
     list_segments(all);
     list_captions(all);
     list_labels(all);
@@ -329,6 +330,7 @@ void read_film(Document& document, FilmedScene& scene) {
     scenery_table().read(document, scene, "film", film);
     read_segments(document, scene);
     read_captions(document, scene);
+    read_length(document, scene);
     read_labels(document, scene);
     read_shows(document, scene);
 }

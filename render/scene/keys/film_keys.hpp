@@ -57,6 +57,15 @@ void list_segments(keys::Keys& all);
 void read_segments(Document& document, FilmedScene& scene);  // call it after the rate is read
 void write_segments(SceneText& out, const FilmedScene& scene);
 
+// The segments of a film whose scene gives none. With a drive: slow motion at both ends, each 4 s of film but
+// at most a tenth of the run, and one frame a period between them. Without one: slow motion in which the eye
+// can follow falling grains, in half a minute of film at most.
+std::vector<FilmSegment> default_segments(const FilmedScene& scene);
+
+// The length of the whole film.
+void list_length(keys::Keys& all);
+void read_length(Document& document, FilmedScene& scene);  // call it after segments and captions
+
 void list_labels(keys::Keys& all);
 void read_labels(Document& document, FilmedScene& scene);
 void write_labels(SceneText& out, const FilmedScene& scene);
@@ -69,6 +78,10 @@ void write_captions(SceneText& out, const FilmedScene& scene);
 void list_wording(keys::Keys& all);
 void read_wording(Document& document, FilmedScene& scene);
 void write_wording(SceneText& out, const FilmedScene& scene);
+
+// The words and values of a text that stands at `path`.
+std::vector<LiveWords> parts_of_text(const Document& document, const Scene& scene, const std::string& path,
+                                     const std::string& text);
 
 // The key `show` of [film]: which words and signs stand beside the grains.
 keys::BoundKey<Film> word_kinds_key();

@@ -32,7 +32,7 @@ const KeyTable<FilmSegment>& segment_table() {
     static const KeyTable<S> table{
         choice("kind", &S::kind, kind_words, initial(),
                "Even in time, or one frame every so many periods at a fixed phase.")
-            .owns({"playback", "every", "phase"})
+            .owns({"playback", "every", "phase", "between"})
             .read_at(-1),
         quantity("duration", &S::duration, Dimension::time, positive, note("what the others leave"),
                  "Simulated time; one segment may go without."),
@@ -48,6 +48,13 @@ const KeyTable<FilmSegment>& segment_table() {
                  "locked: \"90 deg\" or 0.25 turns; beyond one turn with a unit only.")
             .useless_for(
                 [](const S& segment) { return of_locked("a segment in motion shows every phase", segment); }),
+        integer(
+            "between", &S::between, 0, 30, initial(),
+            "locked: pictures between two of these frames, with the grains on the straight way from one to "
+            "the next.")
+            .useless_for(
+                [](const S& segment) { return of_locked("a segment in motion shows every moment", segment); })
+            .unwritten_if([](const S& segment) { return segment.between == 0; }),
         integer("average", &S::average, 1, 1000, note("no mean"),
                 "The picture shows the grains' mean places over so many whole periods that end at its "
                 "moment.")
@@ -72,22 +79,13 @@ FilmSegment read_segment(Document& document, const Scene& scene, const std::stri
     if (segment.kind == Kind::locked && !scene.drive.present)
         document.fail(table + ".kind",
                       "is \"locked\", but nothing oscillates; add [drive] or write \"motion\"");
+    if (segment.between > 0 && (segment.average > 0 || segment.exposure > 0))
+        document.fail(
+            table + ".between",
+            "puts grains on their way between two moments, which 'average' and 'exposure' do not go "
+            "with; keep one of them");
     if (segment.every == 3) document.fail(table + ".every", "must be 1, 2 or 4, but is 3; write 2 or 4");
     return segment;
-}
-
-// The segments of a film whose scene gives none: slow motion at both ends, each 4 s of film but at most a
-// tenth of the run, and one frame a period between them. Slow motion is at least ten times slower, and slow
-// enough for 8 frames a period and for at most three periods a second of film; more would flash.
-std::vector<FilmSegment> default_segments(const FilmedScene& scene) {
-    FilmSegment motion;
-    if (!scene.drive.present) return {motion};
-    const double frequency = scene.drive.highest_frequency();
-    motion.playback = std::min({0.1, scene.film.rate / (8 * frequency), 3 / frequency});
-    motion.duration = std::min(4 * motion.playback, 0.1 * scene.run.duration);
-    FilmSegment between;
-    between.kind = FilmSegment::Kind::locked;
-    return {motion, between, motion};
 }
 
 // The durations of segments must fit in the run. If the command line makes the run shorter, they are

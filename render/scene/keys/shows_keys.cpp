@@ -99,11 +99,21 @@ void read_unit(Document& document, const Scene&, const std::string& path, C& col
     colour.unit = unit.value_or(fitting_unit(std::max(-colour.range[0], colour.range[1]), dimension));
 }
 
+BoundKey<C> coloured_species_key() {
+    BoundKey<C> species = species_key("species", &C::species,
+                                      "Species that are coloured so; the others keep their own colours.");
+    species.key.fallback_note = "all";
+    return species.useless_for([](const C& colour) {
+        if (const char* reason = by_species(colour)) return reason;
+        return colour.as_field ? "a field is the mean of all grains" : nullptr;
+    });
+}
+
 const KeyTable<C>& colour_table() {
     static const KeyTable<C> table{
         choice("by", &C::by, grain_value_words, initial(),
                "What a grain's colour stands for; see docs/guide/colours.md.")
-            .owns({"map", "unit", "range", "layers", "as", "scale"}),
+            .owns({"map", "unit", "range", "layers", "as", "scale", "species"}),
         bound_by<C>(
             entry("scale", KeyKind::text, literal("\"linear\""),
                   "linear or logarithmic: equal ratios have equal distances on the colour bar."),
@@ -131,6 +141,7 @@ const KeyTable<C>& colour_table() {
                "field: the grains' mean over the depth, by coarse-graining, as a layer before pale grains.")
             .useless_for(by_species),
         integer("layers", &C::layers, 2, 12, initial(), "Bands of start-height.").useless_for(without_bands),
+        coloured_species_key(),
     };
     return table;
 }
@@ -190,11 +201,7 @@ void read_condition(Document& document, const Scene& scene, const std::string& p
 
 void read_words(Document& document, const Scene& scene, const std::string& path, FilmShows& shows) {
     shows.text = document.text(path).value_or("");
-    try {
-        shows.live_words = parse_live_text(shows.text, scene.measurable.columns);
-    } catch (const UserError& error) {
-        document.fail(path, error.what());
-    }
+    shows.live_words = parts_of_text(document, scene, path, shows.text);
 }
 
 // N: the weight of all grains, or, if that is more, the force with which the floor lifts them when the drive
@@ -321,6 +328,15 @@ void write_shows(SceneText& out, const FilmedScene& scene) {
     write_colour(out, scene);
     write_plots(out, scene);
     write_arrows_and_trails(out, scene);
+}
+
+std::vector<LiveWords> parts_of_text(const Document& document, const Scene& scene, const std::string& path,
+                                     const std::string& text) {
+    try {
+        return parse_live_text(text, scene.measurable.columns);
+    } catch (const UserError& error) {
+        document.fail(path, error.what());
+    }
 }
 
 // From here on: reading and writing lists of species by name and of grains by id.

@@ -27,7 +27,8 @@ const KeyTable<FilmCaption>& caption_table() {
                  "Simulated time at which the words appear."),
         quantity("to", &C::to, Dimension::time, positive, note("the next caption, or the end"),
                  "Simulated time at which they go."),
-        text("text", &C::text, required(), "\"\\n\" begins another line."),
+        text("text", &C::text, required(),
+             "\"\\n\" begins another line; values as in film.text, {big_in_top_quarter:%}."),
         quantity("hold", &C::hold, Dimension::time, {0, longest_hold, false, false}, initial(),
                  "Time of the film for which the picture stands still when they appear, to read them."),
     };
@@ -76,7 +77,12 @@ void read_captions(Document& document, FilmedScene& scene) {
         captions.resize(count - late);
         leave_out(scene, late, "caption", "captions");
     }
-    for (std::size_t k = 0; k < captions.size(); ++k) check_caption(document, scene, k);
+    for (std::size_t k = 0; k < captions.size(); ++k) {
+        check_caption(document, scene, k);
+        if (captions[k].text.find('{') == std::string::npos) continue;
+        captions[k].words =
+            parts_of_text(document, scene, fmt::format("film.caption[{}].text", k), captions[k].text);
+    }
 }
 
 void write_captions(SceneText& out, const FilmedScene& scene) {

@@ -64,6 +64,30 @@ TEST_F(RenderProgram, DrawsTheLockedFilmOfTheRunToTheByte) {
     expect_same_pictures(here / "run/frames", here / "run-render/frames");
 }
 
+// Pictures on the way from one locked moment to the next are made of the moments that the film kept.
+TEST_F(RenderProgram, DrawsPicturesBetweenLockedMomentsToTheByte) {
+    run("[[film.segment]]\nkind = \"locked\"\nbetween = 2\n", {"--frames"});
+    EXPECT_EQ(entries_of(here / "run/frames"), 7 + 2 * 6);
+    const Ended ended = program({"render", "run", "--frames"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, testing::Not(HasSubstr("brought back")));
+    expect_same_pictures(here / "run/frames", here / "run-render/frames");
+    EXPECT_NE(text_of(here / "run/frames/000001.png"), text_of(here / "run/frames/000003.png"));
+}
+
+TEST_F(RenderProgram, DrawsACycleAtAPhase) {
+    short_run();  // 20 Hz
+    ASSERT_EQ(program({"render", "run", "--at", "0.1125", "--out", "at.png"}).status, 0);
+    const Ended ended = program({"render", "run", "--cycle", "2", "--phase", "0.25", "--out", "cycle.png"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_TRUE(text_of(here / "at.png") == text_of(here / "cycle.png"));
+    const Ended late = program({"render", "run", "--cycle", "40", "--out", "late.png"});
+    EXPECT_EQ(late.status, 2);
+    EXPECT_THAT(late.err, tells({"--cycle", "40 periods", "which has 6"}));
+    EXPECT_EQ(program({"render", "run", "--phase", "0.5"}).status, 2);
+    EXPECT_EQ(program({"render", "run", "--cycle", "1", "--at", "0.1"}).status, 2);
+}
+
 TEST_F(RenderProgram, DrawsTheFilmInMotionOfTheRunToTheByte) {
     // 0.375 / 30 s is a quarter of a period, which is a whole number of steps.
     run("[[film.segment]]\nplayback = 0.375\n", {"--frames", "--set", "output.trajectory_interval=0.0125"});

@@ -264,5 +264,26 @@ TEST(KeptStates, AreKeptUntilTheLastPictureThatWantsThem) {
     EXPECT_FALSE(agenda.next()->moment);
 }
 
+// The grain goes from 1 to 4 mm in a period; two pictures on its way stand at 2 and at 3 mm, through the
+// periodic wall.
+TEST(PictureParts, PutGrainsOnTheirWayBetweenLockedMoments) {
+    FilmedScene scene;
+    scene.container.periodic_depth = true;
+    scene.container.depth = 0.04;
+    const PictureParts parts(scene, kClock, 0);
+    FilmSegment rule;
+    rule.kind = FilmSegment::Kind::locked;
+    rule.between = 2;
+    const auto moved = [](std::int64_t step) {
+        return step <= 800 ? Vec3(0.0185, 0, 0.001) : Vec3(-0.0185, 0, 0.004);
+    };
+    EXPECT_THAT(steps_of(parts.moments(1598, rule, 1)), testing::ElementsAre(800));
+    EXPECT_TRUE(parts.moments(1600, rule, 1).empty());
+    const Shot first = picture(parts, {1598, rule}, moved), second = picture(parts, {1599, rule}, moved);
+    EXPECT_LT((first.position[0] - Vec3(0.0195, 0, 0.002)).norm(), 1e-12) << first.position[0];
+    EXPECT_LT((second.position[0] - Vec3(-0.0195, 0, 0.003)).norm(), 1e-12) << second.position[0];
+    EXPECT_EQ(picture(parts, {1600, rule}, moved).position[0], moved(1600));
+}
+
 }  // namespace
 }  // namespace grainreel

@@ -214,6 +214,18 @@ TEST_F(ResumedRun, AFilmOfMeansAndForcesIsMadeAnew) {
     expect_same("whole", "run");
 }
 
+// A picture on the way between two locked moments needs the one before it, which is among the film's moments.
+TEST_F(ResumedRun, AFilmWithPicturesBetweenLockedMomentsGoesOn) {
+    const Words more = {"--duration", "1.5 s", "--set", "film.segment=[{kind=\"locked\", between=2}]",
+                        "--frames"};
+    ASSERT_EQ(run(movie("whole", more)).status, 0);
+    kill_at(9, more);
+    const Ended ended = run({"resume", "run"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, testing::Not(HasSubstr("goes on from 0 s")));
+    expect_same("whole", "run");
+}
+
 // A slow motion at the end moves to the new end.
 TEST_F(ResumedRun, TheFilmsLastSegmentMovesToTheNewEnd) {
     const auto with_end = [](const char* duration) {

@@ -216,5 +216,16 @@ TEST_F(CheckProgram, SetsKeysOfAMeshByNameAndByNumber) {
     EXPECT_THAT(ended.out, HasSubstr("plate: plate.stl, ASCII STL, 2 triangles, 100 mm x 100 mm x 0 mm"));
 }
 
+// One large grain among many small ones is seen only through them.
+TEST_F(CheckProgram, GivesAHintForAGrainThatMayBeHidden) {
+    const Ended hidden = check({"teaching_brazil_nut", "--set", "film.ghost=[]"});
+    EXPECT_EQ(hidden.status, 0) << hidden.err;
+    EXPECT_THAT(hidden.out, tells({"hint", "\"nut\"", "film.ghost = [\"grains\"]"}));
+    EXPECT_THAT(check({"teaching_brazil_nut"}).out, Not(HasSubstr("hint ")));
+    EXPECT_THAT(check({"teaching_brazil_nut", "--set", "film.ghost=[]", "--set", "film.cut.at=0"}).out,
+                Not(HasSubstr("hint ")));
+    EXPECT_THAT(check({"teaching_sorting", "--set", "film.ghost=[]"}).out, Not(HasSubstr("hint ")));
+}
+
 }  // namespace
 }  // namespace grainreel
