@@ -50,6 +50,8 @@ libmpfr-dev          mpfr, to which a test compares sines, powers and so on
 python3-xarray       xarray for Python, which reads fields.nc in a test
 python3-netcdf4      netCDF4 for Python
 python3-vtk9         VTK for Python, which reads fields.nc in a test
+python3-jsonschema   jsonschema for Python, which judges scenes by our schema in a test
+mypy                 mypy, which checks the types of the Python module in a test
 "
 browser_packages="
 chromium             a browser, for ./test --browser

@@ -82,7 +82,7 @@ std::vector<std::string> exit_warnings(const Scene& scene) {
     if (scene.exits.empty()) return {};
     std::vector<std::string> warnings = feed_warnings(scene);
     const std::int64_t all = scene.grains_at_start();
-    if (all == 0) return warnings;
+    if (all == 0 || scene.start.keep_clock) return warnings;
     double leave = 0;
     if (scene.start.method == Start::Method::grains) {
         leave = static_cast<double>(

@@ -28,6 +28,10 @@ constexpr std::size_t most_of_a_path = 400;  // characters of a path in a messag
 }
 
 std::string advice_for_missing(const std::filesystem::path& file) {
+    std::string several;
+    for (const ShippedScene* scene : shipped_scenes_with(file.filename().string()))
+        several += (several.empty() ? "" : ", ") + scene->name;
+    if (!several.empty()) return "several shipped scenes have this in their names: " + several;
     const std::optional<std::string> meant = nearest_shipped_scene(file.filename().string());
     return meant ? fmt::format("did you mean the shipped scene '{}'?", *meant)
                  : "give the path of a scene file (.toml)";
@@ -137,7 +141,7 @@ Scene read_scene_text(std::string_view text, const std::filesystem::path& file, 
 NamedText text_of_scene(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!file.has_parent_path() && !std::filesystem::exists(file, ignored))
-        if (const ShippedScene* shipped = shipped_scene(file.string()))
+        if (const ShippedScene* shipped = shipped_scene_like(file.string()))
             return {std::string(shipped->text), shipped->name + ".toml"};
     return {load_scene_file(file, Pipes::taken), file};
 }

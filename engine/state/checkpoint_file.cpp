@@ -18,7 +18,7 @@ namespace grainreel {
 namespace {
 
 constexpr std::string_view kName = "grainrs";  // the same in every version; kVersion follows
-constexpr char kVersion = 'b';
+constexpr char kVersion = 'c';
 
 template <class Grain, class Each>
 void transfer_grains(Grain& g, const Each& each) {

@@ -184,6 +184,19 @@ std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
     return app;
 }
 
+namespace {
+
+// What to type, for somebody who named no scene.
+std::string advice_without_scene(const std::string& verb) {
+    const std::string call = program_call();
+    return fmt::format(
+        "{} needs a scene; type for example:  {} {} wedge_segregation   ({} scenes lists those that "
+        "come with the program, {} new writes one to change)",
+        verb, call, verb, call, call);
+}
+
+}  // namespace
+
 std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
     Verbs verbs = all_verbs();
     const std::unique_ptr<CLI::App> parser = make_parser(verbs);
@@ -200,6 +213,9 @@ std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
         for (const auto& verb : verbs)
             if (app.got_subcommand(verb->name()))
                 check_options(*verb, *app.get_subcommand(verb->name()), argc, argv);
+        if (dynamic_cast<const CLI::RequiredError*>(&mistake) != nullptr &&
+            std::string_view(mistake.what()) == "SCENE is required")
+            throw UserError(advice_without_scene(app.get_subcommands().front()->get_name()));
         throw UserError(
             fmt::format("{}; see {}", excerpt(mistake.what(), most_of_a_mistake), help_about(app, verbs)));
     }

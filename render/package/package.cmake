@@ -50,7 +50,8 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/guide ${CMAKE_SOURCE_DIR}/docs/refere
 
 include(${package_sources}/library.cmake)
 include(${package_sources}/archive/archive.cmake)
-install(FILES ${package_sources}/python/grainreel.py DESTINATION lib/python3/dist-packages COMPONENT python)
+install(DIRECTORY ${package_sources}/python/grainreel DESTINATION lib/python3/dist-packages COMPONENT python
+        FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 install(FILES ${package_facts}
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-grainreel COMPONENT python)
 

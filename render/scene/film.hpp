@@ -41,6 +41,7 @@ struct FilmWalls {
     double edge_angle = 30;          // degrees; edges whose faces turn more are drawn
     std::vector<std::string> solid;  // names of meshes that are solid from all sides
     std::vector<std::string> glass;  // names of meshes that are glass from outside
+    bool clear = false;              // all walls, those of the container too, are glass from both sides
     bool coloured() const { return colour != Colour::plain; }
     // Whether equal ratios of values have equal distances on the colour bar. Where the range begins at 0,
     // equal differences have equal distances instead.
@@ -79,6 +80,7 @@ enum class GrainValue {
     kinetic_energy,     // J, of translation and rotation
     coordination,       // contacts that carry force, walls included
     contact_force,      // N, sum of the normal forces on the grain
+    own,                // the user's own values (Shot::own); no scene can name them
 };
 
 enum class ColourMap { viridis, cividis, vik, bilbao };  // bilbao: only for walls
@@ -94,6 +96,7 @@ struct GrainColouring {
     bool as_field = false;               // shows means as a layer in front of pale grains
     std::vector<std::size_t> species{};  // the species that are coloured by it; empty: all
     bool logarithmic = false;  // equal ratios have equal distances on the bar; the range is positive
+    std::string title{};       // words above the colour bar, of own values only
     bool of_grains() const { return by != GrainValue::species && !as_field; }
     // Whether the colours of this species' grains stand for a quantity.
     bool colours(std::size_t one) const {

@@ -10,6 +10,7 @@
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
+#include "engine/scene/keys/json_schema.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
@@ -152,6 +153,10 @@ const std::vector<Key>& filmed_scene_keys() {
         return all;
     }();
     return keys;
+}
+
+std::string scene_schema() {
+    return json_schema(filmed_scene_keys(), "A scene for grainreel");
 }
 
 FilmedScene read_filmed_scene(const std::filesystem::path& file, const Assignments& sets,

@@ -39,6 +39,8 @@ std::string resolved_scene(const FilmedScene& scene, const Plan& plan);
 
 // All keys of a scene file: the engine's keys and the keys of [film].
 const std::vector<Key>& filmed_scene_keys();
+// Their JSON Schema.
+std::string scene_schema();
 
 // These two read a scene with its film: all that read_scene() of engine/scene/scene_file.hpp reads, and
 // besides [film] (whose keys are in keys/) and the species' colours. measurable: columns that plots and live

@@ -157,6 +157,7 @@ std::array<double, 2> usual_range(GrainValue value, const Scene& scene) {
         case GrainValue::contact_force:
             return {0, top_force(scene)};
         case GrainValue::species:
+        case GrainValue::own:
             break;
     }
     return {0, 0};

@@ -57,6 +57,7 @@ inline Dimension dimension_of(GrainValue value) {
             return Dimension::force;
         case GrainValue::species:
         case GrainValue::coordination:
+        case GrainValue::own:
             break;
     }
     return Dimension::number;

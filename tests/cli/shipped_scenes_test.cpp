@@ -67,6 +67,11 @@ TEST(ShippedScenes, AreReadByNameWhereThereIsNoSuchFile) {
     const Ended ended = run_program({"check", "gravle"}, {.folder = folder.path()});
     EXPECT_EQ(ended.status, 2);
     EXPECT_THAT(ended.err, tells({"gravle", "no such file", "'gravel'?"}));
+    EXPECT_EQ(read_filmed_scene("brazil-nut", {}, measurable_in).name, "teaching_brazil_nut");
+    EXPECT_THAT(run_program({"check", "hopper"}, {.folder = folder.path()}).err,
+                tells({"several", "cone_hopper, hopper_discharge, hopper_mixture"}));
+    EXPECT_THAT(run_program({"movie"}, {.folder = folder.path()}).err,
+                tells({"needs a scene", "movie wedge_segregation"}));
 }
 
 TEST(NewScene, IsACopyThatCanBeRead) {
@@ -74,13 +79,17 @@ TEST(NewScene, IsACopyThatCanBeRead) {
     const Ended ended = run_program({"new"}, {.folder = folder.path()});
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_EQ(ended.out, "gravel.toml\n");
-    EXPECT_EQ(text_of(folder.path() / "gravel.toml"), shipped_scene("gravel")->text);
+    EXPECT_EQ(text_of(folder.path() / "gravel.toml"),
+              "#:schema ./grainreel.schema.json\n" + std::string(shipped_scene("gravel")->text));
+    EXPECT_EQ(text_of(folder.path() / "grainreel.schema.json"), run_program({"schema"}, {}).out);
+    std::ofstream(folder.path() / "grainreel.schema.json") << "mine";
     EXPECT_EQ(run_program({"new", "mine", "--from", "brazil-nut"}, {.folder = folder.path()}).out,
               "mine.toml\n");
     const auto title_of = [](const fs::path& scene) {
         return read_filmed_scene(scene, {}, measurable_in).title;
     };
     EXPECT_EQ(title_of(folder.path() / "mine.toml"), title_of("teaching_brazil_nut"));
+    EXPECT_EQ(text_of(folder.path() / "grainreel.schema.json"), "mine") << "nothing is overwritten";
 }
 
 TEST(NewScene, OverwritesNothing) {

@@ -118,6 +118,24 @@ TEST(GrainColours, OfALogarithmicScaleFollowRatios) {
     expect_albedo(colours, two_balls(), 1, colour_of(scene.film.shows.colour.map, 0));
 }
 
+TEST(GrainColours, OfOwnValuesAreThoseOfTheMap) {
+    FilmedScene scene = coloured(GrainValue::own, -2, 2, "");
+    scene.film.shows.colour.title = "age (s)";
+    Shot frame = frame_of({{{0, 0, 0.1}, 0.005, 0}, {{0, 0.02, 0.1}, 0.005, 0}, {{0, 0.04, 0.1}, 0.005, 1}});
+    GrainColours colours(scene);
+    expect_albedo(colours, frame, 0, neutral_grain);  // nothing is known
+    frame.own = {-2, std::numeric_limits<double>::quiet_NaN(), 1};
+    expect_albedo(colours, frame, 0, colour_of(ColourMap::viridis, 0));
+    expect_albedo(colours, frame, 1, neutral_grain);
+    expect_albedo(colours, frame, 2, colour_of(ColourMap::viridis, 0.75));
+    const ColourScale scale(scene.film.shows.colour);
+    EXPECT_EQ(scale.title(), "age (s)");
+    EXPECT_TRUE(scale.open_below());  // a value may be lower than the range
+    // Leaving out a grain keeps the values of the others.
+    ShownGrains shown = ShownGrains::only(scene, {frame.id[2]});
+    EXPECT_EQ(shown.of(frame).own, std::vector<double>{1});
+}
+
 TEST(GrainLabels, SayWhichGrainIsNotThere) {
     FilmedScene scene = coloured(GrainValue::speed, 0, 1, "m/s");
     scene.film.labels = {{0, "first"}, {7, "nobody"}};

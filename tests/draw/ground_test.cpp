@@ -49,7 +49,7 @@ TEST(Ground, LiesUnderTheStrokeAsItIsDrawn) {
             const FilmedScene scene = box_on_ground(direction, exaggerate);
             const double thickness = drawn_thickness(scene.container);
             const double floor = -1.4 * thickness - exaggerate * 0.006 * std::abs(direction.z());
-            EXPECT_NEAR(ShadowMap(scene).height(), floor - 0.15 * thickness, 1e-12)
+            EXPECT_NEAR(ShadowMap(scene).height(), floor, 1e-12)
                 << direction.transpose() << ", " << exaggerate << " times";
         }
 }
@@ -65,7 +65,7 @@ TEST(Ground, LiesUnderAContainerThatTurns) {
         for (const Vec3& corner : prism_corners(scene.container, 1e300))
             lowest = std::min(lowest, (turn.through + by * (corner - turn.through)).z());
     }
-    EXPECT_NEAR(ShadowMap(scene).height(), lowest - 0.15 * drawn_thickness(scene.container), 1e-6);
+    EXPECT_NEAR(ShadowMap(scene).height(), lowest, 1e-6);
 }
 
 TEST(Ground, HasTheShadowWhereverTheDriveIsDrawn) {
@@ -92,6 +92,90 @@ TEST(Ground, HasTheShadowOfAPlateThatHasTurned) {
     EXPECT_NEAR(shadow.width,
                 2 * outer_floor_half_width(scene.container) * std::cos(pi / 3) + thick * std::sin(pi / 3),
                 4 * shadow.cell);
+}
+
+// Beside a long wall of height h the ground loses (1 - d / root(d^2 + h^2)) / 2 of the light from all around.
+// The vessel touches the ground, so this begins at its foot.
+TEST(Ground, IsDarkAtTheFootOfTheVessel) {
+    FilmedScene scene = box_on_ground({0, 0, 1}, 1);
+    scene.drive.present = false;
+    ShadowMap map(scene);
+    map.cast(frame_of({}), straight_down);
+    const double high = 0.3 * extent_of(scene).size().norm() / std::sqrt(3.0);
+    const double cell = map.side() / ShadowMap::kSide, foot = outer_floor_half_width(scene.container);
+    const int i = static_cast<int>((0 - map.low().x()) / cell);
+    int beside = 0;
+    for (int j = 0; j < ShadowMap::kSide; ++j) {
+        const double d = map.low().y() + (j + 0.5) * cell - foot;
+        if (d <= 0) continue;
+        EXPECT_NEAR(map.closed()[static_cast<std::size_t>(j * ShadowMap::kSide + i)],
+                    0.5 * (1 - d / std::hypot(d, high)), 1e-6);
+        beside += d < high;
+    }
+    EXPECT_GT(beside, 5);
+}
+
+// A wall that the eye sees as solid throws a shadow that begins at its foot and goes away from the lamp.
+TEST(Ground, HasTheShadowOfTheWalls) {
+    FilmedScene scene = box_on_ground({0, 0, 1}, 1);
+    scene.drive.present = false;
+    ShadowMap map(scene);
+    map.cast(frame_of({}), Vec3(0, -0.6, 0.8));
+    const double cell = map.side() / ShadowMap::kSide, foot = outer_floor_half_width(scene.container);
+    const auto taken = [&](double y) {
+        return map.cells()[static_cast<std::size_t>(static_cast<int>((y - map.low().y()) / cell) *
+                                                        ShadowMap::kSide +
+                                                    static_cast<int>(-map.low().x() / cell))];
+    };
+    EXPECT_GT(taken(foot + 0.5 * 0.1 * 0.75), 0.3);
+    EXPECT_LT(taken(-foot - 8 * cell), 0.01);
+}
+
+TEST(Ground, LiesWhereGrainsLeave) {
+    FilmedScene scene = box_on_ground({0, 0, 1}, 1);
+    scene.drive.present = false;
+    scene.exits.push_back({.low = {-1, -1, -2}, .high = {1, 1, -0.3}});
+    EXPECT_NEAR(ShadowMap(scene).height(), -0.3, 1e-12);
+}
+
+// A level camera's ground is level for the camera, whatever way gravity has in the box.
+TEST(Ground, IsLevelForTheCamera) {
+    FilmedScene scene = box_on_ground({0, 0, 1}, 1);
+    scene.drive.present = false;
+    scene.film.camera.up = Vec3(0, std::sin(0.2), std::cos(0.2));
+    double lowest = 1e9;
+    for (const Vec3& corner : prism_corners(scene.container, 1e300))
+        lowest = std::min(lowest, corner.dot(scene.film.camera.up));
+    const ShadowMap map(scene);
+    EXPECT_NEAR(map.height(), lowest, 1e-12);
+    EXPECT_NEAR((map.in_lab({0, 0, 1}) - scene.film.camera.up).norm(), 0, 1e-12);
+}
+
+// Ground and backdrop have two tones, and there is nothing of them at the rim, beside the words.
+TEST(Ground, GoesOverIntoTheBackdropAndEndsInsideTheRim) {
+    FilmedScene scene = box_on_ground({0, 0, 1}, 1);
+    scene.film.width = 640, scene.film.height = 360;
+    const Palette palette = palette_of(scene.film);
+    const Rectangle port{0, 0, 640, 360};
+    Ground ground(scene, palette, port);
+    View view = view_of(scene);
+    view.port = port;
+    ground.update(frame_of({}), view);
+    std::vector<std::vector<std::uint32_t>> rows(360, std::vector<std::uint32_t>(640));
+    for (int y = 0; y < 360; ++y) ground.paint(y, rows[static_cast<std::size_t>(y)].data());
+    const auto level = [&](int x, int y) {
+        return rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] & 255;
+    };
+    for (int y = 0; y < 360; ++y) EXPECT_NEAR(level(0, y), 255, 1) << y;
+    for (int x = 0; x < 640; x += 20) {
+        EXPECT_NEAR(level(x, 0), 255, 1) << x;
+        EXPECT_NEAR(level(x, 359), 255, 1) << x;
+    }
+    int step = 0;
+    for (int y = 40; y + 20 < 320; ++y)
+        step = std::max(step, static_cast<int>(level(100, y)) - static_cast<int>(level(100, y + 20)));
+    EXPECT_GE(step, 3);                          // the bend
+    EXPECT_LT(level(100, 270), level(100, 40));  // the ground is darker than the backdrop
 }
 
 }  // namespace

@@ -39,6 +39,26 @@ TEST(LayOver, IsOverForEachPixel) {
     });
 }
 
+TEST(DarkenRow, ScalesColoursAndLeavesAlpha) {
+    for_each_instruction_set([](std::int64_t) {
+        for (std::size_t count = 0; count < 70; ++count) {
+            const auto before = pixels(count + 1, 3);
+            std::vector<std::uint8_t> shares(count + 1);
+            for (std::size_t i = 0; i < count; ++i)
+                shares[i] = static_cast<std::uint8_t>(i % 5 ? 37 * i : 255);
+            std::vector<std::uint32_t> expected = before, dark = before;
+            for (std::size_t i = 0; i < count; ++i)
+                for (int shift = 0; shift < 24; shift += 8) {
+                    const auto value = static_cast<std::uint32_t>(
+                        std::lround((before[i] >> shift & 255u) * shares[i] / 255.0));
+                    expected[i] = (expected[i] & ~(255u << shift)) | value << shift;
+                }
+            darken_row(dark.data(), shares.data(), static_cast<int>(count));
+            ASSERT_EQ(dark, expected) << count;
+        }
+    });
+}
+
 constexpr int kSide = 12;
 
 // The strength of the map at a place, interpolated along both axes; 0 beside the map.

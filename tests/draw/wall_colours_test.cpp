@@ -118,6 +118,31 @@ TEST(WallColours, ATriangleHasTheColourOfItsPressure) {
     EXPECT_NE(plate.pixel(coloured, 2)[0], plain.pixel(without, 2)[0]);
 }
 
+// A strip of long thin triangles: each shares its wear with its neighbours, so that no spikes are seen.
+TEST(WallColours, ThinTrianglesShareTheirWear) {
+    Plate plate;
+    TriangleMesh strip;
+    constexpr int kAlong = 12;
+    for (int k = 0; k <= kAlong; ++k)
+        for (const double y : {0.0, 0.1}) strip.vertices.emplace_back(0.01 * k, y, 0);
+    for (int k = 0; k < kAlong; ++k) {
+        strip.triangles.push_back({2 * k, 2 * k + 2, 2 * k + 1});
+        strip.triangles.push_back({2 * k + 1, 2 * k + 2, 2 * k + 3});
+    }
+    MeshFacts facts;
+    mend(strip, facts);
+    plate.scene.meshes[0].surface.of = std::make_shared<const Surface>(strip, facts, "strip");
+    SceneMeshes meshes(plate.scene);
+    std::vector<double> pressure;
+    for (int t = 0; t < 2 * kAlong; ++t) pressure.push_back(t % 4 == 0 ? 900 : 15);
+    meshes.colour_by(plate.frame(pressure, pressure));
+    const auto& colours = *meshes.at(frame_of({})).front().colours;
+    for (std::size_t t = 4; t + 5 < colours.size(); ++t)
+        EXPECT_NEAR(colours[t][1], colours[t + 1][1], 12) << t;
+    const ColourScale scale(plate.scene.film.look.walls);
+    EXPECT_LT(colours[10][1], 255 * scale.at(15).green - 20);
+}
+
 TEST(WallColours, WearIsAnotherQuantityAndNothingFlickers) {
     Plate plate;
     plate.scene.film.look.walls.colour = FilmWalls::Colour::wear;

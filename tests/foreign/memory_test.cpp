@@ -53,13 +53,13 @@ std::int64_t peak_growth(const std::function<void()>& work) {
     return growth;
 }
 
-// head, then 80 times `piece` repeated to a megabyte, then tail, packed by gzip.
+// head, then 68 times `piece` repeated to a megabyte, then tail, packed by gzip.
 std::string bomb(const std::string& head, const std::string& piece, const std::string& tail) {
     std::string megabyte;
     while (megabyte.size() < static_cast<std::size_t>(kMegabyte)) megabyte += piece;
     const std::string packed = gzip_of(megabyte);
     std::string all = gzip_of(head);
-    for (int k = 0; k < 80; ++k) all += packed;
+    for (int k = 0; k < 68; ++k) all += packed;
     return all + gzip_of(tail);
 }
 

@@ -9,10 +9,11 @@ trap 'rm -rf "$here"' EXIT
 
 fail() { echo "FAILED: $*" >&2; exit 1; }
 
-# It begins as after ./movie, which builds the program alone: what else the packages hold is not there yet.
+# It begins as after ./movie, which builds the program alone: what else the packages hold is not there yet. (Of the engine's
+# library only the archive goes: its objects take long to compile, and the picture's show that cpack compiles.)
 cd "$build"
 rm -f engine/libgrainreel_engine_library.a render/libgrainreel_picture_library.a
-find engine/CMakeFiles/grainreel_engine_library.dir render/CMakeFiles/grainreel_picture_library.dir -name '*.o' -delete
+find render/CMakeFiles/grainreel_picture_library.dir -name '*.o' -delete
 cpack -B "$here/made" >"$here/cpack.log" 2>&1 || { cat "$here/cpack.log"; fail "cpack made no packages"; }
 package=$(echo "$here"/made/grainreel_*.deb)
 (($(stat -c %s "$package") < 10000000)) || fail "$package is larger than 10 MB"
@@ -48,7 +49,7 @@ for needed in python3 python3-xarray python3-netcdf4 grainreel; do
     dpkg-deb -f "$module" Depends | grep -qE "(^|, )$needed( |,|$)" || fail "$module does not depend on $needed"
 done
 dpkg-deb -x "$module" "$here/module"
-[[ -s $here/module/usr/lib/python3/dist-packages/grainreel.py ]] || fail "the Python module is missing"
+[[ -s $here/module/usr/lib/python3/dist-packages/grainreel/__init__.py ]] || fail "the Python module is missing"
 [[ ! -e $here/root/usr/lib/python3 ]] || fail "the program's package has files for Python"
 for name in grainreel libgrainreel-dev python3-grainreel; do
     changes=$(find "$here"/{root,library,module} -path "*/doc/$name/changelog.gz")

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""The Python module grainreel, and the code blocks of docs/guide/python.md. Usage: python_test.py PROGRAM.
+"""The Python module grainreel: thirty lines that users would write (python_lines.py), misuse (python_misuse.py), and the
+code blocks of docs/guide/python.md. Usage: python_test.py PROGRAM.
 
 Exit status 77: xarray, numpy or a reader of NetCDF is missing.
 """
 import os
 import re
 import struct
+import subprocess
 import sys
 import tempfile
 import threading
@@ -22,6 +24,9 @@ except ImportError as missing:
     print(f"python_test: skipped, {missing}; on Debian: apt-get install python3-xarray python3-netcdf4")
     sys.exit(77)
 import grainreel  # noqa: E402
+import python_lines  # noqa: E402
+import python_misuse  # noqa: E402
+from grainreel._data import unit_of  # noqa: E402
 
 SCENE = (ROOT / "tests/data/scenes/fifty.toml").read_text()
 
@@ -49,33 +54,40 @@ def guess_of(kind, left, up, corner):
     return (0, left, up, (left + up) // 2)[kind]
 
 
-def png_of(picture, kinds):
-    """Written by the definition of the filters."""
-    height, width, channels = picture.shape
-    flat = picture.reshape(height, -1).astype(int)
-    rows = b""
+def read_png(data):
+    """By the definition of the filters (PNG, W3C 2003)."""
+    place, packed, head = 8, b"", None
+    while place < len(data):
+        length, kind = struct.unpack(">I4s", data[place:place + 8])
+        body = data[place + 8:place + 8 + length]
+        expect(struct.unpack(">I", data[place + 8 + length:place + 12 + length])[0] == zlib.crc32(kind + body), "a checksum")
+        head, packed = (struct.unpack(">IIBBBBB", body) if kind == b"IHDR" else head,
+                        packed + (body if kind == b"IDAT" else b""))
+        place += 12 + length
+    width, height, bits, colour, *rest = head
+    expect(bits == 8 and rest == [0, 0, 0], f"the head of a PNG file is {head}")
+    channels = {2: 3, 6: 4}[colour]
+    row_bytes = width * channels
+    rows, above, lines = zlib.decompress(packed), [0] * row_bytes, []
     for y in range(height):
-        kind, line = kinds[y % len(kinds)], []
-        for i in range(width * channels):
-            left = flat[y, i - channels] if i >= channels else 0
-            up = flat[y - 1, i] if y else 0
-            corner = flat[y - 1, i - channels] if y and i >= channels else 0
-            line.append((flat[y, i] - guess_of(kind, left, up, corner)) % 256)
-        rows += bytes([kind] + line)
-
-    def chunk(name, body):
-        return struct.pack(">I", len(body)) + name + body + struct.pack(">I", zlib.crc32(name + body))
-
-    head = struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+        kind, line = rows[y * (row_bytes + 1)], []
+        for i, byte in enumerate(rows[y * (row_bytes + 1) + 1:(y + 1) * (row_bytes + 1)]):
+            left, corner = (line[i - channels], above[i - channels]) if i >= channels else (0, 0)
+            line.append((byte + guess_of(kind, left, above[i], corner)) % 256)
+        above = line
+        lines.append(above)
+    return numpy.array(lines, numpy.uint8).reshape(height, width, -1)
 
 
 def check_pictures():
     for channels in (3, 4):
         picture = numpy.random.default_rng(1).integers(0, 256, (10, 7, channels), dtype=numpy.uint8)
-        for kinds in ([0], [1], [2], [3], [4], [4, 1, 3, 2, 0]):
-            read = grainreel._read_png(png_of(picture, kinds))
-            expect((read == picture).all(), f"a picture with the filters {kinds} is read wrongly")
+        written = picture.view(grainreel.Picture)
+        expect((read_png(written._repr_png_()) == picture).all(), f"a picture of {channels} channels is written wrongly")
+        written.save("picture.png")
+        expect(Path("picture.png").read_bytes() == written.png(), "save() writes another picture")
+        for part in (written[0], written.astype(float), written[:0], written.mean()):
+            expect(not hasattr(part, "_repr_png_") or part._repr_png_() is None, "numbers are shown as a picture")
 
 
 # ---- runs
@@ -102,8 +114,8 @@ def check_run(program):
     rows = re.findall(r"^\| `(\w[\w.]*)`[^|]* \| ([^|]+) \|", table, re.M)
     expect(len(rows) > 40, f"{len(rows)} columns are documented")
     for name, unit in rows:
-        expect("," in unit and unit not in written or grainreel._unit_of(name) == written.get(unit, unit),
-               f"the unit of {name} is {grainreel._unit_of(name)}, and {unit} in the documentation")
+        expect("," in unit and unit not in written or unit_of(name) == written.get(unit, unit),
+               f"the unit of {name} is {unit_of(name)}, and {unit} in the documentation")
     trajectory = run.trajectory
     expect(trajectory.coordinates.dims == ("frame", "atom", "spatial"), f"dims: {trajectory.coordinates.dims}")
     expect(trajectory.coordinates.attrs["units"] == "m" and trajectory.time.attrs["units"] == "s", "units of frames")
@@ -121,8 +133,15 @@ def check_run(program):
     expect("is not there; run the scene with output.fields.grid" in mistake_of(lambda: run.fields), "fields are there")
     picture = grainreel.render(run, at=0.1, size="160x120", program=program)
     expect(picture.shape == (120, 160, 3) and picture.dtype == numpy.uint8 and picture.std() > 10, "no picture")
+    command = [program, "render", "run", "--at", "0.1", "--size", "160x120", "--out", "at.png", "--quiet"]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    for again in (picture, grainreel.render(run, at=0.1, size="160x120", program=program)):
+        expect((read_png(Path("at.png").read_bytes()) == again).all(), "render() and the program draw different pictures")
     pale = grainreel.render(run.path, size=(160, 120), program=program, transparent=True)
     expect(pale.shape == (120, 160, 4), f"a transparent picture has the shape {pale.shape}")
+    check_frames(run)
+    check_own_colours(run)
+    check_empty_frames()
     # A file of another program: its last moment too. A grain that moves to the other side of the picture shows which.
     Path("two.xyz").write_text("".join(
         f'1\nLattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:radius:R:1 Time={time}\nA 2 {y} 2 0.5\n'
@@ -133,6 +152,61 @@ def check_run(program):
            "without a moment a file's last one is not drawn")
     expect((last != first).any(), "two moments of a file have the same picture")
     run.close()
+
+
+def check_frames(run):
+    """A frame has the numbers of the trajectory, its parts those of the vectors, and its rows are the grains."""
+    trajectory = run.trajectory
+    for part, (vector, axis) in {"x": ("coordinates", 0), "vz": ("velocities", 2), "wy": ("spin", 1)}.items():
+        expect((trajectory[part].values == trajectory[vector].values[..., axis]).all(), f"{part} is another")
+        expect(trajectory[part].attrs["units"] == trajectory[vector].attrs["units"], f"{part} has another unit")
+    kinds = numpy.array(["small", "big"])[trajectory.type.values - 1]
+    expect((trajectory.species.values == kinds).all(), "the species have other names than their numbers")
+    expect((trajectory.species[1:, 3:5].values == kinds[1:, 3:5]).all(), "a part of the species is another")
+    expect(list(run[1:3][1].z.values) == list(trajectory.z.values[2]), "a slice has other frames")
+    contacts = run.contacts
+    expect((contacts.z.values == contacts.point.values[:, 2]).all(), "z of contacts is another")
+    table = run.to_dataframe()
+    expect(list(table.groupby("frame").z.max()) == list(trajectory.z.max("atom").values), "the table has other grains")
+    expect(abs(float(run.sel(time="100 ms").time) - 0.1) < 1e-3, "a time with a unit finds another frame")
+
+
+def check_empty_frames():
+    """A run into which grains fall: its first frame has none, and no frame has more than are there."""
+    run = grainreel.run(ROOT / "tests/data/scenes/fed.toml", out="fed", run__duration="0.1 s", threads=1,
+                        output__fields__grid="yz", output__contacts=True)
+    counts = [frame.sizes["atom"] for frame in run]
+    expect(counts[0] == 0 and counts == list(run.trajectory.grains.values), f"frames have {counts} grains")
+    expect(len(run.to_dataframe()) == sum(counts), "the table has places without grains")
+    fields = run.to_dataframe("fields")
+    points = int(numpy.prod([run.fields.sizes[name] for name in ("time", "y", "z")]))
+    expect(len(fields) == points and {"time", "y", "z", "density"} <= set(fields), f"{len(fields)} of {points} points")
+    expect(len(run.to_dataframe("contacts")) == run.contacts.sizes["row"], "the table has other contacts")
+    expect(set(run[-1].species.values) == {"glass"} and run[0].species.sizes == {"atom": 0}, "species of a frame")
+    picture = run.render(colour=run[-1].z, size="160x120")
+    expect((picture != run.render(at=0, size="160x120")).any(), "grains that came are not drawn")
+
+
+def check_own_colours(run):
+    """Own values give the colours that the film's own quantity gives, in any order of the ids; NaN is grey."""
+    how = {"size": "160x120", "words": "none", "program": run._program}
+    last = run[-1]
+    speed = ((last.vx ** 2 + last.vy ** 2 + last.vz ** 2) ** 0.5).astype(float)
+    same = run.render(colour__by="speed", colour__range=["0 m/s", "0.2 m/s"], **how)
+    own = run.render(colour=speed, colour__range=(0, 0.2), **how)
+    far = numpy.abs(same.astype(int) - own.astype(int)).max()
+    expect(far <= 2, f"own speeds have other colours than film.colour.by = speed: {far}")  # kept speeds are floats
+    turned = speed.isel(atom=numpy.random.default_rng(2).permutation(speed.sizes["atom"]))
+    expect((run.render(colour=turned, colour__range=(0, 0.2), **how) == own).all(), "the order of the ids counts")
+    column = last.to_dataframe().set_index("id").z
+    expect((run.render(colour=column, **how) == run.render(colour=list(column), **how)).all(), "a column is another")
+    none = run.render(colour=[float("nan")] * 49 + [1.0], **how)
+    colourful = [int((numpy.ptp(each.astype(int), axis=2) > 60).sum()) for each in (own, none)]
+    expect(0 < 10 * colourful[1] < colourful[0], f"unknown values are not grey: {colourful} pixels have a colour")
+    words = [run.render(colour=speed, colour__title=title, size="640x360", program=run._program) for title in ("a", "b")]
+    expect((words[0] != words[1]).any(), "the title is not written")
+    dark = run.render(style="dark", **how)
+    expect((run.render(**how) != dark).any() and (run.render(style="dark", **how) == dark).all(), "settings stay behind")
 
 
 def check_mistakes(program):
@@ -147,22 +221,12 @@ def check_mistakes(program):
                        ("leave one out", lambda: render("run", at=0.1, frame=1, program=program)),
                        ("size: must be as", lambda: render("run", size=3, program=program)),
                        ("size: must be as", lambda: render("run", size=(3, 4, 5), program=program)),
-                       ("--at must be a time", lambda: render("run", at=float("nan"), program=program)),
+                       ("at: must be a time", lambda: render("run", at=float("nan"), program=program)),
                        ("run the scene again with its film", lambda: render("run", frame=1, program=program))):
         said = mistake_of(call)
         expect(says in said and not said.startswith("error"), f"'{says}' is expected, it says: {said}")
     expect("is not found" in mistake_of(lambda: grainreel.run("scene.toml", program="no-such-program")), "no program")
     expect("is no folder of a run" in mistake_of(lambda: grainreel.open("/")), "any folder is a run")
-    for file, bytes_, says in (("measures.csv", b"step,time_s\n1,x\n", "is damaged"), ("run.json", b"{", "is damaged"),
-                               ("trajectory.nc", b"\x89HDF no more", "cannot be read")):
-        damaged = Path("damaged")
-        damaged.mkdir(exist_ok=True)
-        (damaged / "scene.toml").touch()
-        (damaged / file).write_bytes(bytes_)
-        said = mistake_of(lambda: [grainreel.open(damaged).measures] if file == "measures.csv" else
-                          [grainreel.open(damaged).trajectory] if file == "trajectory.nc" else
-                          [grainreel.open(damaged).record])
-        expect(says in said and file in said and "\n" not in said, f"of a damaged {file} it says: {said}")
 
 
 def check_stop(program):
@@ -189,10 +253,9 @@ def check_stop(program):
 # ---- the guide
 
 
-def check_guide(program):
+def check_guide():
     """All blocks in their order, as one notebook in a folder that has scene.toml."""
     page = ROOT / "docs/guide/python.md"
-    os.environ["GRAINREEL"] = program
     names = {}
     for match in re.finditer(r"^```python\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL):
         line = page.read_text()[:match.start()].count("\n") + 2
@@ -203,7 +266,7 @@ def main(program):
     program = str(Path(program).resolve())
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        os.environ.update(XDG_CACHE_HOME=folder, GRAINREEL_PACKINGS="off")
+        os.environ.update(XDG_CACHE_HOME=folder, GRAINREEL_PACKINGS="off", GRAINREEL=program)
         Path("scene.toml").write_text(SCENE)
         watchdog = threading.Timer(500, lambda: os._exit(1))
         watchdog.daemon = True
@@ -212,7 +275,9 @@ def main(program):
         check_run(program)
         check_mistakes(program)
         check_stop(program)
-        check_guide(program)
+        wrong = python_lines.check() + python_misuse.check()
+        expect(not wrong, "\n".join(wrong))
+        check_guide()
         os.chdir("/")
 
 

@@ -54,14 +54,8 @@ double area_between(const Container& c, const std::string& face, double low, dou
 WallScale wall_scale(const Scene& scene, const Plan& plan) {
     double stiffest = 0;
     for (const std::vector<PairPlan>* walls : {&plan.wall, &plan.glued, &plan.mesh})
-        for (const PairPlan& wall : *walls) {
-            stiffest = std::max(stiffest, wall.loading_stiffness);
-            // A resumed run must count as the run before. Where restitution depends on speed, the plan's
-            // unloading stiffness is that of the expected impact, and a resumed run expects another one than
-            // its start did.
-            const bool by_speed = wall.hardening > 0 || !wall.restitution_table.empty();
-            if (!by_speed) stiffest = std::max(stiffest, wall.unloading_stiffness);
-        }
+        for (const PairPlan& wall : *walls)
+            stiffest = std::max({stiffest, wall.loading_stiffness, wall.unloading_stiffness});
     WallScale scale;
     scale.force = std::ldexp(math::power_of_two_up_to(stiffest * largest_radius(scene)), -48);
     scale.length = math::power_of_two_from(extent_of(scene).size().norm());

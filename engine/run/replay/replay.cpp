@@ -74,7 +74,14 @@ Plan plan_of_run(const Scene& scene, const fs::path& run) {
             "{}: has no checkpoints, so that no moment can be brought back; ask for a kept moment "
             "with --no-replay, or run the scene again with output.checkpoints",
             run.string()));
-    return make_plan(started_from(scene, kept.front().file));
+    // The file that a run started from may be gone; its first checkpoint has the same grains. Other runs expect
+    // the impacts that they expected when they began.
+    if (scene.start.method == Start::Method::file) return make_plan(started_from(scene, kept.front().file));
+    Scene there = scene;
+    there.start.keep_clock = true;
+    Plan plan = make_plan(there);
+    plan.start.text = "goes on at its step";
+    return plan;
 }
 
 SimulatedBed run_of_checkpoint(const fs::path& checkpoint, int threads) {

@@ -69,9 +69,14 @@ void SimulatedBed::Impl::take_wall_sums(Bytes& in) {
     WallSums sums;
     read_vector(in, sums.faces);
     read_vector(in, sums.slices);
+    read_value(in, sums.scale.force);
+    read_value(in, sums.scale.length);
     if (observers.need_wall_sums()) {
-        const WallScale scale = wall_scale(scene, plan);
+        WallScale scale = wall_scale(scene, plan);
         const bool there = !sums.faces.empty();
+        // The plan may expect other impacts than the run's first plan did, or have other contacts. The sums go
+        // on in the units in which they began.
+        if (there) scale.force = sums.scale.force, scale.length = sums.scale.length;
         if (there && !is_sound(sums, around.faces.size() + around.meshes.size(), scale)) in.fail();
         if (in.failed()) throw damaged_checkpoint(scene);
         there ? loop->go_on_tallying(sums, scale) : loop->tally_walls(scale, step);
@@ -82,6 +87,8 @@ void SimulatedBed::Impl::save_wall_sums(std::ostream& out) const {
     const WallSums sums = observers.need_wall_sums() ? loop->wall_sums() : WallSums();
     write_vector(out, sums.faces);
     write_vector(out, sums.slices);
+    write_value(out, sums.scale.force);
+    write_value(out, sums.scale.length);
 }
 
 std::string SimulatedBed::Impl::gathered() const {

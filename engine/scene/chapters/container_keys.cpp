@@ -146,7 +146,7 @@ const KeyTable<C>& container_table() {
             "mesh: that of a [[mesh]]; none: empty space. The origin is the middle of the floor; x along the "
             "depth, y across, z up."),
         mesh_key(),
-        length("height", &C::height, required(), "Floor to lid or rim.")
+        length("height", &C::height, note("required; wedge, box, cylinder"), "Floor to lid or rim.")
             .useless_for(without_container)
             .placed_at(of_all),
         length("depth", &C::depth, note("required; wedge, box"), "Front to back, along x.")

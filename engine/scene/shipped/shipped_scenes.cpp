@@ -51,16 +51,18 @@ const ShippedScene* shipped_scene(std::string_view name) {
     return found == all.end() ? nullptr : &*found;
 }
 
+std::vector<const ShippedScene*> shipped_scenes_with(std::string_view words) {
+    const std::string wanted = "_" + plain_name(words) + "_";
+    std::vector<const ShippedScene*> matches;
+    for (const ShippedScene& scene : shipped_scenes())
+        if (("_" + scene.name + "_").find(wanted) != std::string::npos) matches.push_back(&scene);
+    return matches;
+}
+
 const ShippedScene* shipped_scene_like(std::string_view words) {
     if (const ShippedScene* exact = shipped_scene(words)) return exact;
-    const std::string plain = plain_name(words);
-    const ShippedScene* only = nullptr;
-    for (const ShippedScene& scene : shipped_scenes()) {
-        if (scene.name.find(plain) == std::string::npos) continue;
-        if (only) return nullptr;
-        only = &scene;
-    }
-    return only;
+    const std::vector<const ShippedScene*> matches = shipped_scenes_with(words);
+    return matches.size() == 1 ? matches.front() : nullptr;
 }
 
 std::optional<std::string> nearest_shipped_scene(std::string_view name) {

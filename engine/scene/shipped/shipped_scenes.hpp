@@ -23,7 +23,11 @@ const std::vector<ShippedScene>& shipped_scenes();
 // The scene of this name, with .toml or without; "-" counts as "_". Null when there is none.
 const ShippedScene* shipped_scene(std::string_view name);
 
-// The scene of this name, or the only one whose name contains it: "brazil-nut" is teaching_brazil_nut.
+// The scenes whose names contain these words: "hopper" gives cone_hopper, hopper_discharge ...
+std::vector<const ShippedScene*> shipped_scenes_with(std::string_view words);
+
+// The scene of this name, or the only one whose name contains these words: "brazil-nut" is
+// teaching_brazil_nut.
 const ShippedScene* shipped_scene_like(std::string_view words);
 
 // The name of a shipped scene that is nearest to a mistyped one. Empty when none is near.

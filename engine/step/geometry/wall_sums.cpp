@@ -1,6 +1,7 @@
 #include "engine/step/geometry/wall_sums.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace grainreel {
@@ -35,7 +36,8 @@ bool are_sound(const std::vector<FaceSums>& faces) {
 }
 
 bool is_sound(const WallSums& sums, std::size_t faces, const WallScale& scale) {
-    return sums.faces.size() == faces &&
+    const auto is_unit = [](double unit) { return std::isfinite(unit) && unit > 0; };
+    return is_unit(scale.force) && is_unit(scale.length) && sums.faces.size() == faces &&
            sums.slices.size() == faces * static_cast<std::size_t>(scale.slices) && are_sound(sums.faces) &&
            are_sound(sums.slices);
 }

@@ -177,7 +177,7 @@ namespace fs = std::filesystem;
 constexpr int most_drawn = 48, least_drawn = 4;
 constexpr double patience = 1.5;  // s after which no further frame is begun
 constexpr std::int64_t most_grains = 200'000;
-constexpr double solid_fraction = 0.5;  // solid fraction of a shaken bed
+constexpr double shaken_fraction = 0.5;  // solid fraction of a shaken bed
 // The time for a frame of a run, divided by that for a frame of the stack, in which more grains are visible.
 // It is 0.7 to 0.9 for the scenes that come with the program.
 constexpr double run_over_stack = 0.8;
@@ -290,7 +290,7 @@ State stacked_bed(const FilmedScene& scene) {
     const Container& c = scene.container;
     const std::vector<std::size_t> species = spread_species(scene);
     const double pitch =
-        std::cbrt(solid_volume(scene) / static_cast<double>(species.size()) / solid_fraction);
+        std::cbrt(solid_volume(scene) / static_cast<double>(species.size()) / shaken_fraction);
     const double most = pitch * static_cast<double>(species.size());  // m, length of a row of all grains
     if (const auto& region = scene.start.region) return stacked_in(scene, species, pitch, *region);
     const bool vessel = c.shape == Container::Shape::mesh;

@@ -13,7 +13,6 @@
 #include "render/app/messages/reporter.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/verbs/verbs.hpp"
-#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
@@ -21,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* default_scene = "gravel";
+constexpr const char* schema_name = "grainreel.schema.json";
 
 const ShippedScene& scene_called(const std::string& name) {
     if (const ShippedScene* scene = shipped_scene_like(name)) return *scene;
@@ -36,7 +36,8 @@ class New final : public Verb {
   public:
     New()
         : Verb("new", "Write a commented scene file to start from",
-               "An existing file is never overwritten.\n"
+               "Beside it lies grainreel.schema.json, by which editors with taplo (Even Better TOML, for one)\n"
+               "complete and check it. An existing file is never overwritten.\n"
                "Exit status: 0 done, 1 the file could not be written, 2 a mistake in the options.") {}
 
     void add_options(CLI::App& parser) override {
@@ -54,7 +55,10 @@ class New final : public Verb {
         fs::path file = name_.empty() ? fs::path(scene.name) : name_;
         if (file.extension() != ".toml") file += ".toml";
         check_free(file);
-        replace_file(file, scene.text);
+        replace_file(file, fmt::format("#:schema ./{}\n", schema_name) + std::string(scene.text));
+        const fs::path schema = file.parent_path() / schema_name;
+        if (std::error_code ignored; !fs::exists(fs::symlink_status(schema, ignored)))
+            replace_file(schema, scene_schema());
         reporter.info(fmt::format("wrote {}, a copy of {}; change it, then: {} check {}", file.string(),
                                   scene.name, program_call(), shell_word(file.string())));
         print_exact(file.string() + "\n");

@@ -11,6 +11,7 @@
 #include "engine/handover/handover_folder.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/listener.hpp"
+#include "render/app/asked/asked_pictures.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/cli.hpp"
@@ -88,6 +89,10 @@ class Render final : public Verb {
             ->type_name("TURNS")
             ->check(number_within(0, 1))
             ->needs(cycle);
+        CLI::Option* asked =
+            parser.add_flag("--asked", asked_,
+                            "Draw pictures that another program asks for on stdin, and write them to stdout "
+                            "(docs/guide/python.md)");
         add_print_size(parser, request_.print);
         add_camera_file(parser, camera_);
         add_no_replay(parser, request_.replay);
@@ -109,12 +114,17 @@ class Render final : public Verb {
         for (CLI::Option* other :
              {from, to, every, parser.get_option("--frames"), parser.get_option("--no-film")})
             for (CLI::Option* one : {at, frame, cycle}) one->excludes(other);
+        for (CLI::Option* other : {at, frame, cycle, from, to, every, follow, parser.get_option("--part"),
+                                   parser.get_option("--parts"), parser.get_option("--slurm"),
+                                   parser.get_option("--out"), parser.get_option("--frames"),
+                                   parser.get_option("--no-film"), parser.get_option("--keep-camera")})
+            asked->excludes(other);
         add_reporting(parser, report);
     }
 
     int run(Reporter& reporter) override {
         film_.command = command;
-        check_print_size(request_.print, is_still(), "--at, --frame or --cycle");
+        check_print_size(request_.print, is_still() || asked_, "--at, --frame or --cycle");
         check_idle();
         use_camera_file(camera_, request_.sets);
         film_.program = program_info();
@@ -130,6 +140,7 @@ class Render final : public Verb {
         request_.run = read.folder;
         if (read.imported) request_.beside = read.beside;
         request_.frame_of_file = read.imported;
+        if (asked_) return draw_asked_pictures(film_, request_, reporter);
         if (read.imported && !is_still() && !request_.every) request_.every = 1;
         if (is_still()) return draw_one(reporter);
         if (request_.every) check_no_segments(request_.sets);
@@ -198,7 +209,7 @@ class Render final : public Verb {
     int slurm_ = 0;  // number of parts of a Slurm script; 0: no script
     ReadingOptions reading_;
     CameraFiles camera_;
-    bool follow_ = false;
+    bool follow_ = false, asked_ = false;
     std::optional<double> idle_;  // s
     FilmRequest film_;
 };

@@ -1,6 +1,7 @@
 #include "render/film/run/still.hpp"
 
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -13,7 +14,6 @@
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/picture/camera/camera_path.hpp"
-#include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -118,6 +118,21 @@ bool remember_what_was(Renderer& renderer, std::int64_t step, StoredShots& sourc
     return true;
 }
 
+// The frame with a value for each grain.
+ShotPtr with_own_values(const Shot& frame, const OwnColours& own) {
+    if (own.id.empty() && own.value.size() != frame.size())
+        throw UserError(
+            fmt::format("{} values for the colours of {} grains; give one for each grain of {:.6g} s",
+                        own.value.size(), frame.size(), frame.time));
+    auto shot = std::make_shared<Shot>(frame);
+    shot->own = own.value;
+    if (own.id.empty()) return shot;
+    shot->own.assign(frame.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        if (const auto row = row_of_id(own.id, frame.id[i])) shot->own[i] = own.value[*row];
+    return shot;
+}
+
 }  // namespace
 
 std::string seconds_in_names(double time) {
@@ -134,35 +149,69 @@ void check_still(const FilmRequest& request, const RenderRequest& what) {
     if (request.out) check_png(*request.out, request.force);
 }
 
+StillPainter::StillPainter(StoredShots& source, const FilmRequest& request, const PrintSize& print,
+                           Listener& listener)
+    : source_(source), listener_(listener), gl_(request.gl), scene_(source.scene()) {
+    source.watch_replay(watcher_of(listener));
+    fit_to_paper(scene_.film, print);
+    settle_orbit(scene_.film.camera, static_cast<double>(source.film().shots().size()) / scene_.film.rate);
+}
+
+void StillPainter::tell_once(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines)
+        if (told_.insert(line).second) listener_.warning(line);
+}
+
+// Makes a renderer for these colours, unless the last one serves. What leaves trails is drawn by a new one.
+// Returns false when told to stop.
+bool StillPainter::prepare(std::int64_t step, const OwnColours* own, const ShotSource::GoOn& go_on) {
+    FilmedScene scene = scene_;
+    scene.film.shows.colour = own ? own->colouring : source_.scene().film.shows.colour;
+    const bool same = scene.film.shows.colour == scene_.film.shows.colour;
+    if (renderer_ && same && !scene.film.shows.trails.wanted()) return true;
+    scene_ = std::move(scene);
+    renderer_.reset();
+    renderer_.emplace(scene_, drawing_threads(scene_.run.threads).raster, gl_);
+    if (const std::string note = renderer_->gl_note(); !note.empty()) listener_.info("note: " + note);
+    if (remember_what_was(*renderer_, step, source_, go_on)) return true;
+    renderer_.reset();
+    return false;
+}
+
+std::optional<StillPainter::Drawn> StillPainter::draw(const RenderRequest& what, const OwnColours* own) {
+    const Chosen chosen = choose(what, source_);
+    tell_once(source_.news());
+    if (chosen.instead) listener_.warning(*chosen.instead);
+    tell_once(film_warnings(scene_, 1));
+    const auto go_on = [&] { return listener_.stop_signal() == 0; };
+    // A moving camera stands where it would be in the film.
+    const FilmSchedule::Place place = source_.film().place_of(chosen.step);
+    if (!prepare(chosen.step, own, go_on)) return std::nullopt;
+    // Own values are those of one moment, so such a picture shows no exposure.
+    const std::vector<FilmSegment> segments = source_.segments();
+    source_.start({{chosen.step, place.segment}}, own ? of_single_moments(segments) : segments);
+    const std::optional<Taken> taken = source_.next(go_on);
+    if (!taken) return std::nullopt;
+    const ShotPtr frame = own ? with_own_values(*taken->frame, *own) : taken->frame;
+    const Picture& picture = renderer_->draw(*frame, "", place.time);
+    if (const std::string note = renderer_->last_note(); !note.empty()) listener_.info(note);
+    return Drawn{picture, frame, chosen.from};
+}
+
 std::optional<fs::path> draw_still(const FilmRequest& request, const RenderRequest& what, Listener& listener,
                                    StoredShots& source) {
     check_still(request, what);
-    const Chosen chosen = choose(what, source);
-    for (const std::string& line : source.news()) listener.warning(line);
-    if (chosen.instead) listener.warning(*chosen.instead);
-    for (const std::string& line : film_warnings(source.scene(), 1)) listener.warning(line);
-    source.watch_replay(watcher_of(listener));
-    const auto go_on = [&] { return listener.stop_signal() == 0; };
-    // A moving camera stands where it would be in the film.
-    const FilmSchedule::Place place = source.film().place_of(chosen.step);
-    FilmedScene scene = source.scene();
-    fit_to_paper(scene.film, what.print);
-    settle_orbit(scene.film.camera, static_cast<double>(source.film().shots().size()) / scene.film.rate);
-    Renderer renderer(scene, drawing_threads(scene.run.threads).raster, request.gl);
-    if (const std::string note = renderer.gl_note(); !note.empty()) listener.info("note: " + note);
-    if (!remember_what_was(renderer, chosen.step, source, go_on)) return std::nullopt;
-    source.start({{chosen.step, place.segment}}, source.segments());
-    const std::optional<Taken> picture = source.next(go_on);
-    if (!picture) return std::nullopt;
+    StillPainter painter(source, request, what.print, listener);
+    const std::optional<StillPainter::Drawn> drawn = painter.draw(what);
+    if (!drawn) return std::nullopt;
+    const FilmedScene& scene = painter.scene();
     const fs::path run = source.run().path();
     const fs::path beside = what.beside.empty() ? run.parent_path() : what.beside;
-    const fs::path path = request.out ? *request.out : free_name(scene, beside, picture->frame->time);
-    write_png(path, renderer.draw(*picture->frame, "", place.time),
-              texts_of(scene.name, scene.film.title, *picture->frame, ""), scene.film.transparent,
-              dots_an_inch(what.print));
-    if (const std::string note = renderer.last_note(); !note.empty()) listener.info(note);
+    const fs::path path = request.out ? *request.out : free_name(scene, beside, drawn->frame->time);
+    write_png(path, drawn->picture, texts_of(scene.name, scene.film.title, *drawn->frame, ""),
+              scene.film.transparent, dots_an_inch(what.print));
     listener.info(
-        fmt::format("wrote {}: the run at {:.6g} s, {}", path.string(), picture->frame->time, chosen.from));
+        fmt::format("wrote {}: the run at {:.6g} s, {}", path.string(), drawn->frame->time, drawn->from));
     return path;
 }
 

@@ -69,7 +69,7 @@ add_custom_target(archive
   DEPENDS archive_tree COMMENT "Packing ${archive_name}.tar.xz" VERBATIM)
 
 set(wheel_command ${ARCHIVE_PYTHON} ${archive_sources}/make_wheel.py --version ${PROJECT_VERSION}
-    --processor ${CMAKE_SYSTEM_PROCESSOR} --module ${package_sources}/python/grainreel.py)
+    --processor ${CMAKE_SYSTEM_PROCESSOR} --module ${package_sources}/python/grainreel)
 add_custom_target(wheel
   COMMAND ${wheel_command} --level ${GRAINREEL_ARCHIVE_LEVEL} ${archive_tree} ${CMAKE_BINARY_DIR}
   DEPENDS archive_tree COMMENT "Packing the wheel" VERBATIM)

@@ -55,17 +55,17 @@ class Loader:
                 folders.append(line)
         return folders + (["/lib64", "/usr/lib64", "/lib", "/usr/lib"] if name == "/etc/ld.so.conf" else [])
 
-    def _read(self, option, file):
-        return subprocess.run([self.readelf, "-W", option, str(file)], capture_output=True, text=True, check=True,
+    def _read(self, option, *files):
+        return subprocess.run([self.readelf, "-W", option, *map(str, files)], capture_output=True, text=True, check=True,
                               env={"PATH": "/usr/bin:/bin", "LC_ALL": "C"}).stdout
 
     def needs(self, file):
         """Names of the libraries that a file asks for."""
         return re.findall(r"\(NEEDED\).*\[(.*)\]", self._read("-d", file))
 
-    def glibc(self, file):
-        """The newest version of glibc whose symbols a file asks for, as (2, 36)."""
-        versions = re.findall(r"Name: GLIBC_(\d+)\.(\d+)", self._read("-V", file))
+    def glibc(self, files):
+        """The newest version of glibc whose symbols the files ask for, as (2, 36)."""
+        versions = re.findall(r"Name: GLIBC_(\d+)\.(\d+)", self._read("-V", *files))
         return max(((int(major), int(minor)) for major, minor in versions), default=(0, 0))
 
     def find(self, name):

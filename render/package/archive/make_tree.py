@@ -111,7 +111,7 @@ def make(how):
     files = {**copy_libraries(how, loader, out), **copy_data(loader, out)}
     licences.write(out / "share/doc/grainreel/licences", files, ffmpeg, licences.Packages(loader))
     write_list(out)
-    glibc = max(loader.glibc(file) for file in (out / OWN).iterdir())
+    glibc = loader.glibc((out / OWN).iterdir())
     (out / "README").write_text(README.format(version=how.version, processor=how.processor,
                                               glibc=".".join(map(str, glibc))))
     out.with_name(out.name + ".glibc").write_text("_".join(map(str, glibc)) + "\n")

@@ -2,7 +2,7 @@
 """Makes a wheel for pip of the Python module and of a folder that make_tree.py has made: PEP 427, with Python's own
 library alone.
 
-usage: make_wheel.py --version 1.0.0 --processor x86_64 --module grainreel.py --level 6 TREE FOLDER
+usage: make_wheel.py --version 1.0.0 --processor x86_64 --module grainreel --level 6 TREE FOLDER
 
 The wheel goes to FOLDER; its name says for which glibc and processor it is, and pip refuses it elsewhere.
 """
@@ -13,7 +13,7 @@ import stat
 import zipfile
 from pathlib import Path
 
-PACKED = "grainreel_program"  # the package that holds the folder; render/package/python/grainreel.py looks for it
+PACKED = "grainreel_program"  # the package that holds the folder; render/package/python/grainreel/_program.py looks for it
 
 METADATA = """Metadata-Version: 2.1
 Name: grainreel
@@ -22,7 +22,7 @@ Summary: Films of vibrated grains and the numbers behind them
 License: GPL-2.0-or-later
 Requires-Python: >=3.9
 Requires-Dist: numpy
-Requires-Dist: xarray
+Requires-Dist: xarray>=2023.1
 Requires-Dist: netCDF4
 Description-Content-Type: text/markdown
 
@@ -74,7 +74,8 @@ def main():
     file = how.folder / f"grainreel-{how.version}-{tag}.whl"
     half = file.with_suffix(".half")
     wheel = Wheel(half, how.level)
-    wheel.add("grainreel.py", how.module.read_bytes())
+    for path in sorted([*how.module.glob("*.py"), how.module / "py.typed"]):
+        wheel.add(f"grainreel/{path.name}", path.read_bytes())
     wheel.add(f"{PACKED}/__init__.py", Path(__file__).with_name("wheel_command.py").read_bytes())
     for path in sorted(path for path in how.tree.rglob("*") if path.is_file()):
         wheel.add(f"{PACKED}/{path.relative_to(how.tree)}", path.read_bytes(), bool(path.stat().st_mode & 0o111))

@@ -15,8 +15,8 @@ namespace grainreel {
 
 namespace {
 
-std::string quantity_words(GrainValue value, const Wording& wording) {
-    switch (value) {
+std::string quantity_words(const GrainColouring& colouring, const Wording& wording) {
+    switch (colouring.by) {
         case GrainValue::speed:
             return wording(Word::speed);
         case GrainValue::vertical_velocity:
@@ -35,6 +35,8 @@ std::string quantity_words(GrainValue value, const Wording& wording) {
             return wording(Word::contacts);
         case GrainValue::contact_force:
             return wording(Word::normal_forces);
+        case GrainValue::own:
+            return colouring.title;
         case GrainValue::species:
             break;
     }
@@ -83,7 +85,7 @@ std::string clipped_words(const GrainColouring& colouring, const ClippedCount& c
                                             banded ? "" : in_unit(colouring.range[1], size, colouring.unit)});
     if (parts.empty()) return "";
     return fmt::format("colours by {}: {}, where the bar ends (film.colour.range)",
-                       quantity_words(colouring.by, {}), parts);
+                       quantity_words(colouring, {}), parts);
 }
 
 // The words leave out triangles below the range: hardly anything touches those.
@@ -100,10 +102,10 @@ ColourScale::ColourScale(const GrainColouring& colouring, const Wording& wording
     : map_(colouring.map),
       range_(colouring.range),
       bands_(bands_of(colouring)),
-      signed_(is_signed(colouring.by)),
+      signed_(is_signed(colouring.by) || colouring.by == GrainValue::own),
       logarithmic_(colouring.logarithmic),
       unit_size_(grainreel::unit_size(colouring.unit, dimension_of(colouring.by))),
-      title_(with_unit(quantity_words(colouring.by, wording), colouring.unit)) {}
+      title_(with_unit(quantity_words(colouring, wording), colouring.unit)) {}
 
 ColourScale::ColourScale(const FilmWalls& walls, const Wording& wording)
     : map_(ColourMap::bilbao), range_(walls.range), logarithmic_(walls.logarithmic()) {

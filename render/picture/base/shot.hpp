@@ -26,6 +26,7 @@ struct Shot : State {
     std::vector<Vec3> displacement;  // m, of each grain over the last period of the drive; also empty before
                                      // one has passed
     std::vector<Link> touches;
+    std::vector<double> own;  // a value of each grain that the user brings; NaN where there is none
 
     // The rows of measures.csv so far: the first `measure_rows` rows of a table that goes on growing.
     std::shared_ptr<const MeasureTable> measures;

@@ -61,9 +61,11 @@ void draw_container(const FilmedScene& scene, const Views& views, const State& f
         const Sketch below{views, palette, picture_height, place};
         draw_at(tray_container(scene), {below, below, below}, shapes);
     }
+    shapes.behind.container = 1;
     draw_at(container_at(scene.container, frame.time), sketches, shapes);
     // Free walls are inside the container, so they are painted over its far walls.
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        ++shapes.behind.container;
         const BodyPose pose = frame.body(kFirstPlaneBody + w);
         draw_free_wall(scene.walls[w], scene, {views, palette, picture_height, pose}, shapes);
     }
@@ -153,7 +155,9 @@ void draw_free_wall(const ScenePlane& wall, const FilmedScene& scene, const Sket
     WallSide& on = sketch.faces(wall.point, wall.normal) ? shapes.behind : shapes.before;
     // The wall is solid where the eye is on the side of the grains.
     const double solid = sketch.solid(wall.point, -wall.normal);
-    sketch.polygon(on, piece, blend(sketch.glass_face(), sketch.inner_face(), solid));
+    const bool behind = &on == &shapes.behind;
+    sketch.inner_polygon(on, piece, blend(sketch.glass_face(), sketch.inner_face(), solid), wall.normal,
+                         behind ? solid : 0, InnerWall::free);
     sketch.line(on, piece, true, sketch.pen, blend(sketch.glass_edge(), sketch.far_edge(), solid));
 }
 

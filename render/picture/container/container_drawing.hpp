@@ -26,12 +26,18 @@ struct WallSide {
     struct Face {
         std::vector<Vec3> corners;  // m, where it is now
         double alpha;
+        Vec3 inward{0, 0, 0};  // unit, towards the grains; 0 for a face that grains do not darken
+        double taken = 0;      // how much of its light others may take from it, 0 to 1
+        int wall = 0;          // number of the wall that it belongs to; faces of a round wall have the same
+        int container = 0;     // number of the container: walls of one darken each other where they meet
     };
     Shapes shapes;
     std::vector<Face> faces;
+    int container = 0;  // the number that new faces get
     void clear() {
         shapes.clear();
         faces.clear();
+        container = 0;
     }
 };
 
@@ -42,10 +48,12 @@ struct ContainerShapes {
 };
 
 // The camera's view before it follows the container (at_rest) and in the present frame (now). moves: whether
-// the camera moves in the course of the film.
+// the camera moves in the course of the film. clear: film.walls.glass = true.
 struct Views {
     View at_rest, now;
     bool moves = false;
+    bool clear = false;   // all walls are glass
+    bool bright = false;  // inner walls stand out from a dark background, so that shadows are seen on them
 };
 
 // frame: the frame as it is shown, with the motion exaggerated. picture_height: pixels; decides how wide

@@ -73,7 +73,7 @@ class Cylinder {
         const double wide = radius_ + thickness_;
         const Paint edge = blend(sketch.glass_edge(), sketch.edge(), solid);
         if (solid > 0 && behind) {
-            fill(on, sketch, wide, inner, up, faded(sketch.inner_face(), solid));
+            fill(on, sketch, wide, inner, up, faded(sketch.inner_face(), solid), solid);
             sketch.line(on, circle(radius_, inner), true, 0.6 * sketch.pen, faded(sketch.far_edge(), solid));
         }
         const auto upper = arc(wide, facing_ - half_visible_, facing_ + half_visible_, high);
@@ -97,11 +97,15 @@ class Cylinder {
     }
 
     // Fills a disc. The floor's disc has a hole where its outlet is open.
-    void fill(WallSide& on, const Sketch& sketch, double wide, double height, double up,
-              const Paint& paint) const {
-        if (up > 0 || !outlet_) return sketch.polygon(on, circle(wide, height), paint);
-        for (const std::vector<Vec3>& piece : disc_around_hole(*outlet_, wide, height))
-            sketch.polygon(on, piece, paint);
+    void fill(WallSide& on, const Sketch& sketch, double wide, double height, double up, const Paint& paint,
+              double taken = 0) const {
+        const auto piece_of_disc = [&](const std::vector<Vec3>& piece) {
+            if (taken <= 0) return sketch.polygon(on, piece, paint);
+            sketch.inner_polygon(on, piece, paint, {0, 0, -up}, taken,
+                                 up > 0 ? InnerWall::lid : InnerWall::floor);
+        };
+        if (up > 0 || !outlet_) return piece_of_disc(circle(wide, height));
+        for (const std::vector<Vec3>& piece : disc_around_hole(*outlet_, wide, height)) piece_of_disc(piece);
         sketch.line(on, rim_of_hole(*outlet_, height), true, 0.6 * sketch.pen,
                     faded(sketch.far_edge(), paint.alpha));
     }
@@ -114,8 +118,10 @@ class Cylinder {
         for (std::size_t i = 0; i + 1 < low.size(); ++i) {
             const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(low.size() - 1);
             const double turned = std::abs(2 * middle - 1);
-            walls.polygon(shapes_.behind, {low[i], low[i + 1], high[i + 1], high[i]},
-                          {walls.palette.solid, 0.06 + 0.24 * turned * turned * turned});
+            const Vec3 outward = (0.5 * (low[i] + low[i + 1])).cwiseProduct(Vec3(1, 1, 0)).normalized();
+            walls.inner_polygon(shapes_.behind, {low[i], low[i + 1], high[i + 1], high[i]},
+                                {walls.palette.solid, 0.06 + 0.24 * turned * turned * turned}, -outward, 1,
+                                InnerWall::side);
         }
     }
 
@@ -125,7 +131,7 @@ class Cylinder {
         const double angle = facing_ + side * half_visible_, wide = radius_ + thickness_;
         const std::vector<Vec3> section = {on_circle(radius_, angle, 0), on_circle(radius_, angle, height_),
                                            on_circle(wide, angle, height_), on_circle(wide, angle, 0)};
-        walls.polygon(shapes_.behind, section, walls.cut());
+        walls.polygon(shapes_.behind, section, walls.is_clear() ? walls.glass_cut() : walls.cut());
         walls.line(shapes_.behind, section, true, walls.pen, walls.edge());
     }
 

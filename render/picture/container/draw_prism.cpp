@@ -88,7 +88,9 @@ class Prism {
             return points;
         };
         for (const End& end : far_) {
-            walls.polygon(shapes_.behind, at_end(end), faded(walls.pane(), end.weight));
+            walls.inner_polygon(shapes_.behind, at_end(end), faded(walls.pane(), end.weight),
+                                {end.x < 0 ? 1.0 : -1.0, 0, 0}, end.weight,
+                                end.x < 0 ? InnerWall::pane : InnerWall::other_pane);
             walls.line(shapes_.behind, at_end(end), !container_.lid, 0.7 * walls.pen,
                        faded(walls.far_edge(), end.weight));
         }
@@ -115,6 +117,12 @@ class Prism {
         return Vec3(0, side * along.y(), -side * along.x()).normalized();
     }
 
+    static InnerWall inner_wall(const WallProfile& profile, std::size_t i) {
+        const bool upper = i > 0;
+        if (profile.inner.front().x() < 0) return upper ? InnerWall::upper_side : InnerWall::side;
+        return upper ? InnerWall::other_upper_side : InnerWall::other_side;
+    }
+
     // Draws one flat part of a wall, between two points of its profile.
     void segment(const WallProfile& profile, std::size_t i) {
         const Sketch& walls = sketches_.walls;
@@ -125,7 +133,8 @@ class Prism {
         const double solid = walls.solid(at(0, a), outward(profile, i));
         const bool behind = !walls.faces(at(0, a), outward(profile, i));
         WallSide& on = behind ? shapes_.behind : shapes_.before;
-        walls.polygon(on, inner, blend(walls.glass_face(), walls.inner_face(), behind ? solid : 0));
+        walls.inner_polygon(on, inner, blend(walls.glass_face(), walls.inner_face(), behind ? solid : 0),
+                            -outward(profile, i), behind ? solid : 0, inner_wall(profile, i));
         const Paint thin = blend(walls.glass_edge(), walls.far_edge(), solid);
         for (const Flat& p : {a, b}) walls.line(on, {at(x, p), at(-x, p)}, false, 0.6 * walls.pen, thin);
         if (solid > 0 && behind)
@@ -151,10 +160,13 @@ class Prism {
             return std::vector<Vec3>{{x, left, z}, {x, right, z}, {-x, right, z}, {-x, left, z}};
         };
         const bool with_hole = up < 0 && container_.outlet && container_.outlet->shape == Outlet::Shape::hole;
-        const auto fill = [&](double z, const Paint& paint) {
+        const auto fill = [&](double z, const Paint& paint, double taken = 0) {
             const Pieces pieces =
                 with_hole ? rectangle_around_hole(*container_.outlet, x, right, z) : Pieces{level(z)};
-            for (const std::vector<Vec3>& piece : pieces) sketch.polygon(on, piece, paint);
+            const InnerWall wall = up > 0 ? InnerWall::lid : InnerWall::floor;
+            for (const std::vector<Vec3>& piece : pieces)
+                taken > 0 ? sketch.inner_polygon(on, piece, paint, {0, 0, -up}, taken, wall)
+                          : sketch.polygon(on, piece, paint);
             if (with_hole)
                 sketch.line(on, rim_of_hole(*container_.outlet, z), true, 0.6 * sketch.pen,
                             faded(sketch.far_edge(), paint.alpha));
@@ -164,7 +176,7 @@ class Prism {
         const Paint face = blend(sketch.glass_face(), sketch.outer_face(), solid);
         if (sketch.faces({0, 0, outer_height}, {0, 0, up})) fill(outer_height, face);
         if (solid > 0 && behind) {
-            fill(inner_height, faded(sketch.inner_face(), solid));
+            fill(inner_height, faded(sketch.inner_face(), solid), solid);
             sketch.line(on, level(inner_height), true, 0.6 * sketch.pen, faded(sketch.far_edge(), solid));
         }
         for (const double y : {left, right}) {

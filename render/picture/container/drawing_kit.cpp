@@ -39,6 +39,7 @@ Paint blend(const Paint& one, const Paint& other, double share_of_other) {
 double Sketch::solid(const Vec3& point, const Vec3& normal) const {
     // The change is shifted by `fade`, so that a part is wholly glass when the eye comes into its plane.
     // There it moves from the layer behind the grains to the layer in front of them.
+    if (views_.clear) return 0;
     const View& view = views_.at_rest;
     if (turned_) {
         const Vec3 at = views_.now.orthographic ? Vec3(-views_.now.forward)

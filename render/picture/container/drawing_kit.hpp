@@ -26,6 +26,9 @@ inline bool is_prism(const Container& container) {
     return container.shape == Container::Shape::wedge || container.shape == Container::Shape::box;
 }
 
+// The inner walls of a container.
+enum class InnerWall { floor, lid, side, other_side, upper_side, other_upper_side, pane, other_pane, free };
+
 // Draws shapes that are given in metres in the frame of a body that has moved and turned.
 class Sketch {
   public:
@@ -50,6 +53,7 @@ class Sketch {
         return turned_ ? Vec3(rotation_.conjugate() * in_lab) : in_lab;
     }
     bool is_turned() const { return turned_; }
+    bool is_clear() const { return views_.clear; }
     // How solid a part looks, from 0 for glass to 1. This is decided for the container at rest; otherwise a
     // part whose plane the eye crosses would blink once a period. (A container that turns is taken as it is
     // in the present frame.) The order of painting, however, always depends on the present frame. For a
@@ -65,6 +69,16 @@ class Sketch {
         on.faces.push_back({corners, paint.alpha});
         for (Vec3& corner : on.faces.back().corners) corner = moved(corner);
     }
+    // A polygon of an inner face, which grains darken. inward: towards them, unit.
+    void inner_polygon(WallSide& on, const std::vector<Vec3>& corners, const Paint& paint, const Vec3& inward,
+                       double taken, InnerWall wall) const {
+        polygon(on, corners, paint);
+        WallSide::Face& face = on.faces.back();
+        face.inward = turned(inward);
+        face.taken = taken;
+        face.wall = static_cast<int>(wall);
+        face.container = on.container;
+    }
     void line(WallSide& on, const std::vector<Vec3>& points, bool closed, double width,
               const Paint& paint) const {
         on.shapes.line(project(points), closed, width, paint);
@@ -74,9 +88,11 @@ class Sketch {
     // Paints of the solid parts behind the grains, and of the glass over the grains, which is so faint that
     // it hides nothing.
     Paint cut() const { return {palette.solid, 1}; }
-    Paint inner_face() const { return {mix(palette.background, palette.solid, 0.30), 1}; }
+    Paint inner_face() const {
+        return {mix(palette.background, palette.solid, views_.bright ? 0.5 : 0.30), 1};
+    }
     Paint outer_face() const { return {mix(palette.solid, palette.background, 0.30), 1}; }
-    Paint pane() const { return {palette.solid, 0.10}; }
+    Paint pane() const { return {palette.solid, views_.bright ? 0.34 : 0.10}; }
     Paint edge() const { return {palette.ink, 1}; }
     Paint far_edge() const { return {mix(palette.solid, palette.ink, 0.35), 1}; }
     Paint glass_cut() const { return {palette.solid, 0.38}; }

@@ -74,6 +74,7 @@ const Shot& ShownGrains::of(const Shot& frame) {
     keep(shown_.spin, kept_);
     keep(shown_.orientation, kept_);
     keep(shown_.displacement, kept_);
+    keep(shown_.own, kept_);
     return shown_;
 }
 
@@ -150,6 +151,9 @@ const std::vector<double>& Quantities::of(const Shot& frame) {
                 break;
             case GrainValue::kinetic_energy:
                 values_[i] = kinetic_energy(frame, i, density_[frame.species[i]]);
+                break;
+            case GrainValue::own:
+                if (!frame.own.empty()) values_[i] = frame.own[i];
                 break;
             default:
                 break;

@@ -82,6 +82,7 @@ SpherePainter::SpherePainter(const FilmedScene& scene, int width, int height, Te
       layer_(width, height),
       look_(scene.film.look),
       lamp_(lamp_of(look_, scene.film.shows.colour.of_grains())),
+      wall_lamp_(lamp_of(look_, false)),
       up_(scene.film.camera.up) {
     if (!ghosts) return;
     painted_.resize(scene.species.size(), 0);
@@ -94,6 +95,7 @@ void SpherePainter::take(const View& view, const Shot& frame) {
     lamp_.up[0] = static_cast<float>(view.right.dot(up_));
     lamp_.up[1] = static_cast<float>(view.up.dot(up_));
     lamp_.up[2] = static_cast<float>(view.forward.dot(up_));
+    std::copy_n(lamp_.up, 3, wall_lamp_.up);
     spheres_.spheres.resize(frame.size());
     for (std::size_t i = 0; i < frame.size(); ++i) {
         const Vec3 at = view.to_view(frame.position[i]);
@@ -155,17 +157,27 @@ void SpherePainter::find_visible(const SolidDepth& solid) {
 }
 
 void SpherePainter::find_order(const View& view, const ContainerShapes& walls) {
-    std::vector<WallFace> faces;
+    faces_.clear();
     for (const WallSide* side : {&walls.behind, &walls.before})
         for (const WallSide::Face& face : side->faces) {
-            faces.push_back({{}, face.alpha, side == &walls.before});
-            for (const Vec3& corner : face.corners) faces.back().corners.push_back(view.to_view(corner));
+            const Vec3 inward = view.to_view(view.eye + face.inward);
+            faces_.push_back(
+                {{}, face.alpha, side == &walls.before, inward, face.taken, face.wall, face.container});
+            for (const Vec3& corner : face.corners) faces_.back().corners.push_back(view.to_view(corner));
         }
-    layer_.find_order(sight_, cut_, spheres_, faces, team_);
+    layer_.find_order(sight_, cut_, spheres_, faces_, team_);
 }
 
 void SpherePainter::find_neighbours() {
     layer_.find_neighbours(cut_, lamp_, spheres_, team_);
+}
+
+void SpherePainter::light_walls(WallLight& walls, float corner_reach) {
+    walls.light_faces(layer_.takers(sight_, cut_, wall_lamp_, spheres_), faces_, corner_reach, team_);
+}
+
+void SpherePainter::light_meshes(WallLight& walls, const MeshPixels& meshes) {
+    walls.light_meshes(layer_.takers(sight_, cut_, wall_lamp_, spheres_), meshes, team_);
 }
 
 const Layer& SpherePainter::light() {

@@ -75,6 +75,11 @@ class SpherePainter {
     void find_order(const View& view, const ContainerShapes& walls);
     void find_neighbours();
     const Layer& light();
+    // Light the walls behind the grains, and the solid meshes. Call them after find_neighbours().
+    void light_walls(WallLight& walls, float corner_reach);
+    void light_meshes(WallLight& walls, const MeshPixels& meshes);
+    // Whether walls are darkened at all.
+    bool takes_light() const { return lamp_.occlusion || lamp_.shadows; }
     double seen_share(std::size_t grain) const { return layer_.visibility().seen_share(grain); }
     // The pixels where a grain reaches through a wall. There, one layer of walls behind the grains and one in
     // front would hide the wrong things.
@@ -92,11 +97,12 @@ class SpherePainter {
     std::vector<std::uint8_t> painted_;      // for each species; empty: all are painted
     std::vector<std::int32_t> not_painted_;  // ids; empty: by species
     SphereLayer layer_;
+    std::vector<WallFace> faces_;  // of the last find_order()
     Spheres spheres_;
     FilmLook look_;
     Sight sight_;
     Cut cut_;
-    Lamp lamp_;
+    Lamp lamp_, wall_lamp_;
     const Vec3 up_;
 };
 

@@ -144,6 +144,21 @@ void MeshPainter::draw_solid_band(int band, const MeshProjection& meshes, const 
     }
 }
 
+void MeshPainter::darken(const WallLight& light, Team& team) {
+    team.run([&](int member) {
+        for (int y = member; y < height_; y += team.size()) light.darken(y, behind_.row(y));
+    });
+    // Pixels with two surfaces were taken apart before the light was known.
+    const auto darker = [](std::uint32_t colour, std::uint32_t share) {
+        return (colour & 0xff000000u) | (scaled(colour, share) & 0x00ffffffu);
+    };
+    for (BandState& state : states_)
+        for (Mixed& pixel : state.mixed) {
+            const std::uint32_t share = light.row(pixel.y)[pixel.x];
+            pixel.near = darker(pixel.near, share), pixel.far = darker(pixel.far, share);
+        }
+}
+
 // Fills a row of samples from each odd crossing of the outline to the next crossing.
 void MeshPainter::fill(const MeshSection& section, std::uint32_t colour, const MeshRows& rows, int y0, int y1,
                        std::vector<float>& crossings) {

@@ -33,6 +33,11 @@ class MeshPainter {
     void draw_solid(const MeshProjection& meshes, const Sight& sight, Team& team);
     // m: z of the solid triangle in the middle of each pixel.
     SolidDepth depth() const { return {away_.data(), stride_}; }
+    MeshPixels pixels(const MeshProjection& meshes) const {
+        return {away_.data(), number_.data(), stride_, meshes.planes().data()};
+    }
+    // Darkens the solid triangles. Call it between draw_solid() and draw_rest().
+    void darken(const WallLight& light, Team& team);
     // Draws what depends on the grains. seen: grains that were drawn with depth().
     void draw_rest(const MeshProjection& meshes, const Sight& sight, const Visibility& seen, const Inks& inks,
                    Team& team);

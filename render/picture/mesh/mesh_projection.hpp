@@ -11,6 +11,7 @@
 #include "render/picture/base/view.hpp"
 #include "render/picture/mesh/mesh_shape.hpp"
 #include "render/picture/mesh/screen_setup.hpp"
+#include "render/picture/spheres/light/wall_light.hpp"
 
 namespace grainreel {
 
@@ -48,12 +49,9 @@ class MeshProjection {
     void take(const View& view, const Sight& sight, const Cut& cut, const std::vector<DrawnMesh>& meshes,
               const MeshPaints& paints, Team& team);
 
-    // The plane of a solid triangle, in view coordinates, with its normal towards the eye. Numbers begin
-    // with 1.
-    struct Plane {
-        Eigen::Vector3f normal;
-        float distance;
-    };
+    // The plane of a solid triangle. Numbers begin with 1.
+    using Plane = SurfacePlane;
+    const std::vector<Plane>& planes() const { return planes_; }
     const Plane& plane(std::uint32_t number) const { return planes_[number - 1]; }
     // For each band of rows, the numbers of the triangles and lines in it, rising.
     struct Band {

@@ -28,6 +28,7 @@ std::array<float, 3> bytes(const Colour& colour) {
 
 MeshLook look_of(const FilmedScene& scene, const SceneMesh& mesh) {
     if (names(scene.film.look.walls.solid, mesh.name)) return MeshLook::solid;
+    if (scene.film.look.walls.clear) return MeshLook::glass;
     if (names(scene.film.look.walls.glass, mesh.name)) return MeshLook::vessel;
     if (scene.container.shape == Container::Shape::mesh && mesh.name == scene.container.mesh)
         return MeshLook::vessel;
@@ -35,6 +36,73 @@ MeshLook look_of(const FilmedScene& scene, const SceneMesh& mesh) {
     const Vec3 middle = 0.5 * (scene.start.region->low + scene.start.region->high);
     const EnclosedRoom room(mesh.surface.of);
     return room.encloses_anything() && room.holds(middle) ? MeshLook::vessel : MeshLook::automatic;
+}
+
+namespace {
+
+double area_of(const MeshShape& shape, std::size_t t) {
+    const auto at = [&](int k) -> const Vec3& {
+        return shape.vertices[static_cast<std::size_t>(shape.triangles[t][static_cast<std::size_t>(k)])];
+    };
+    return 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+}
+
+// Whether a triangle is several times as long as it is high.
+bool is_thin(const MeshShape& shape, std::size_t t) {
+    constexpr double kThin = 4;
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        longest =
+            std::max(longest, (shape.vertices[static_cast<std::size_t>(shape.triangles[t][(k + 1) % 3])] -
+                               shape.vertices[static_cast<std::size_t>(shape.triangles[t][k])])
+                                  .norm());
+    return longest * longest > kThin * 2 * area_of(shape, t);
+}
+
+// For each long thin triangle, itself and those that share a corner with it and turn less than edge_angle
+// (rad); for all others only themselves.
+std::vector<std::vector<std::uint32_t>> smooth_neighbours(const MeshShape& shape, double edge_angle) {
+    constexpr std::size_t kMost = 64;  // around the hub of a disc there may be thousands
+    std::vector<std::vector<std::uint32_t>> at_vertex(shape.vertices.size()), all(shape.triangles.size());
+    for (std::size_t t = 0; t < all.size(); ++t)
+        for (const auto v : shape.triangles[t])
+            at_vertex[static_cast<std::size_t>(v)].push_back(static_cast<std::uint32_t>(t));
+    for (std::size_t t = 0; t < all.size(); ++t) {
+        all[t].push_back(static_cast<std::uint32_t>(t));
+        if (!is_thin(shape, t)) continue;
+        for (const auto v : shape.triangles[t])
+            for (const std::uint32_t u : at_vertex[static_cast<std::size_t>(v)])
+                if (u != t && all[t].size() < kMost &&
+                    shape.normals[t].dot(shape.normals[u]) >= std::cos(edge_angle))
+                    all[t].push_back(u);
+    }
+    return all;
+}
+
+std::vector<double> areas_of(const MeshShape& shape) {
+    std::vector<double> areas;
+    for (std::size_t t = 0; t < shape.triangles.size(); ++t) areas.push_back(area_of(shape, t));
+    return areas;
+}
+
+}  // namespace
+
+// Files cut discs and tubes into long thin triangles. What grains do to a small part of one is spread over
+// its whole length, which would show as spikes. So thin triangles share their values with their neighbours.
+std::vector<double> SceneMeshes::shared(std::size_t mesh, std::vector<double> values) const {
+    constexpr int kTimes = 4;
+    const auto& neighbours = neighbours_[mesh];
+    const std::vector<double>& areas = areas_[mesh];
+    for (int time = 0; time < kTimes; ++time) {
+        const std::vector<double> before = values;
+        for (std::size_t t = 0; t < values.size(); ++t) {
+            double sum = 0, area = 0;
+            for (const std::uint32_t u : neighbours[t])
+                if (!std::isnan(before[u])) sum += areas[u] * before[u], area += areas[u];
+            if (area > 0 && !std::isnan(before[t])) values[t] = sum / area;
+        }
+    }
+    return values;
 }
 
 SceneMeshes::SceneMeshes(const FilmedScene& scene)
@@ -47,6 +115,9 @@ SceneMeshes::SceneMeshes(const FilmedScene& scene)
         drawn_.push_back({mesh_shape(*mesh.surface, edge_angle, look_of(scene, mesh)), {}, nullptr});
         body_.push_back(static_cast<std::size_t>(first_mesh_body(scene)) + m);
         mesh_.push_back(m);
+        if (!scale_) continue;
+        neighbours_.push_back(smooth_neighbours(*drawn_.back().shape, edge_angle));
+        areas_.push_back(areas_of(*drawn_.back().shape));
     }
     colours_.resize(drawn_.size());
 }
@@ -61,7 +132,7 @@ void SceneMeshes::colour_by(const Shot& frame) {
         const std::vector<double>& values = by_pressure_ ? worn.pressure : worn.wear;
         if (values.size() != drawn_[m].shape->triangles.size()) continue;
         colours_[m].clear();
-        for (const double value : values) {
+        for (const double value : shared(m, values)) {
             colours_[m].push_back(std::isnan(value) ? as_walls_look : bytes(scale_->at(value)));
             clipped_.take(value, {scale_->low(), scale_->high()});
         }
@@ -149,7 +220,9 @@ MeshShadows::MeshShadows(const FilmedScene& scene) {
         const SceneMesh& mesh = scene.meshes[m];
         if (!mesh.surface) continue;
         const Surface& surface = *mesh.surface;
-        const double opacity = look_of(scene, mesh) == MeshLook::vessel ? kVesselOpacity : 1;
+        const MeshLook look = look_of(scene, mesh);
+        const bool thin = look == MeshLook::vessel || look == MeshLook::glass;
+        const double opacity = thin ? kVesselOpacity : 1;
         const std::int32_t apart = surface.size() / static_cast<std::int32_t>(4 * kPatches) + 1;
         double all = 0;
         for (std::int32_t t = 0; t < surface.size(); t += apart) all += surface.area(t);

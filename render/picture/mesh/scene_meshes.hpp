@@ -34,6 +34,8 @@ class SceneMeshes {
     const std::vector<DrawnMesh>& at(const State& frame);
 
   private:
+    std::vector<double> shared(std::size_t mesh, std::vector<double> values) const;
+
     std::vector<DrawnMesh> drawn_;
     std::optional<ColourScale> scale_;  // set where meshes have colours
     bool by_pressure_ = false;
@@ -41,6 +43,9 @@ class SceneMeshes {
     std::vector<std::vector<std::array<float, 3>>> colours_;
     ClippedCount clipped_;
     std::vector<std::size_t> body_;  // numbers of their bodies
+    // Where meshes have colours: for each triangle, those over which its value is shared, and its area (m2).
+    std::vector<std::vector<std::vector<std::uint32_t>>> neighbours_;
+    std::vector<std::vector<double>> areas_;
 };
 
 MeshPaints mesh_paints(const Palette& palette, const Vec3& up, int picture_height);

@@ -23,6 +23,23 @@ void lay(std::uint32_t* below, const std::uint32_t* top, int count, std::uint32_
     for (; x < count; ++x) below[x] = over(scaled(top[x], strength), below[x]);
 }
 
+void darken(std::uint32_t* pixels, const std::uint8_t* shares, int count) {
+    const hn::ScalableTag<std::uint32_t> d;
+    const hn::Rebind<std::uint8_t, decltype(d)> bytes;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const auto alpha = hn::Set(d, 0xff000000u);
+    int x = 0;
+    for (; x + lanes <= count; x += lanes) {
+        const auto share = hn::PromoteTo(d, hn::LoadU(bytes, shares + x));
+        if (hn::AllTrue(d, hn::Eq(share, hn::Set(d, 255)))) continue;
+        const auto pixel = hn::LoadU(d, pixels + x);
+        hn::StoreU(hn::Or(hn::And(pixel, alpha), hn::AndNot(alpha, scaled_all(d, pixel, share))), d,
+                   pixels + x);
+    }
+    for (; x < count; ++x)
+        pixels[x] = (pixels[x] & 0xff000000u) | (scaled(pixels[x], shares[x]) & 0x00ffffffu);
+}
+
 }  // namespace grainreel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -30,9 +47,14 @@ HWY_AFTER_NAMESPACE();
 namespace grainreel {
 
 HWY_EXPORT(lay);
+HWY_EXPORT(darken);
 
 void lay_over(std::uint32_t* below, const std::uint32_t* top, int count, std::uint32_t strength) {
     HWY_DYNAMIC_DISPATCH(lay)(below, top, count, strength);
+}
+
+void darken_row(std::uint32_t* pixels, const std::uint8_t* shares, int count) {
+    HWY_DYNAMIC_DISPATCH(darken)(pixels, shares, count);
 }
 
 }  // namespace grainreel

@@ -51,4 +51,7 @@ inline std::uint32_t faded(std::uint32_t pixel, float share) {
 // below[i] = over(scaled(top[i], strength), below[i]) for `count` pixels; strength: 0 to 255.
 void lay_over(std::uint32_t* below, const std::uint32_t* top, int count, std::uint32_t strength = 255);
 
+// Multiplies the colours of `count` pixels by shares / 255. Their alpha stays.
+void darken_row(std::uint32_t* pixels, const std::uint8_t* shares, int count);
+
 }  // namespace grainreel

@@ -7,12 +7,14 @@
 //
 #include "render/picture/spheres/draw-inl.hpp"
 #include "render/picture/spheres/light/light-inl.hpp"
+#include "render/picture/spheres/light/wall-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 const SphereKernels* kernels_here() {
-    static constexpr SphereKernels kernels{draw, farthest, mark_changes, mark_edges, settle, light};
+    static constexpr SphereKernels kernels{draw,   farthest, mark_changes, mark_edges,
+                                           settle, light,    light_wall};
     return &kernels;
 }
 

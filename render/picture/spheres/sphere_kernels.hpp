@@ -106,6 +106,32 @@ struct LitPoints {
     int count;
 };
 
+// Walls as they meet in a corner, where they take light from each other: inner planes in view coordinates.
+struct CornerPlane {
+    float x, y, z, d;  // unit normal towards the grains, m from the origin of the points
+    float wall, container;
+};
+
+// A row of pixels that show walls. Results are the shares of their colour that are left, 0 to 1.
+constexpr int kWallRow = 16;
+struct WallRow {
+    float x, y;                             // pixels, the middle of the first one
+    alignas(64) float away[kWallRow];       // m, z
+    alignas(64) float normal[3][kWallRow];  // unit, towards the grains
+    alignas(64) float taken[kWallRow];      // how much of the light may be taken; 0: no wall is seen here
+    alignas(64) float tone[kWallRow];       // what is left of the colour where nothing is in the way
+    alignas(64) float wall[kWallRow], container[kWallRow];
+    alignas(64) float share[kWallRow];  // results
+};
+// What takes light from some rows. Places count from the origin, a point near the rows in view coordinates.
+struct WallShade {
+    float origin[3];
+    NeighbourSpan occluders, casters;
+    const CornerPlane* corner;
+    int corners;
+    float corner_reach;  // m, how high walls count as
+};
+
 struct SphereKernels {
     void (*draw)(const Sight&, const Cut&, const DepthRows&, const ViewSphere&, const PixelBox&,
                  std::uint32_t number);
@@ -121,6 +147,7 @@ struct SphereKernels {
     // Computes the results of the block.
     void (*settle)(const Sight&, const Cut&, EdgeBlock&);
     void (*light)(const Sight&, const Cut&, const Lamp&, const LitGrain&, const LitPoints&);
+    void (*light_wall)(const Sight&, const Lamp&, const WallShade&, WallRow&);
 };
 const SphereKernels& sphere_kernels();
 

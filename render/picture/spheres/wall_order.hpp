@@ -20,6 +20,11 @@ struct WallFace {
     std::vector<Vec3> corners;  // m: corners of a flat convex piece, in order around it
     double opacity;             // 1 for a solid one
     bool before;                // whether it is in the layer in front of the grains
+    // For WallLight, as in WallSide::Face:
+    Vec3 inward{0, 0, 0};
+    double taken = 0;
+    int wall = 0, container = 0;
+    bool operator==(const WallFace&) const = default;
 };
 
 // A pixel in which the two layers are not right.

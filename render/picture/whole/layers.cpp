@@ -29,9 +29,12 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
     team.run([&](int member) {
         for (int y = member; y < port.height; y += team.size()) {
             auto* out = reinterpret_cast<std::uint32_t*>(picture.pixel(port.x, port.y + y));
-            std::fill_n(out, port.width, layers.background);
-            if (layers.ground) layers.ground->shade(y, out);
+            if (layers.ground)
+                layers.ground->paint(y, out);
+            else
+                std::fill_n(out, port.width, layers.background);
             lay_row(layers.behind, y, out);
+            if (layers.wall_light) layers.wall_light->darken(y, out);
             if (layers.meshes_behind) lay_row(*layers.meshes_behind, y, out);
             const std::uint32_t strength = layers.strengths.empty() ? 255 : layers.strengths[y];
             lay_row(layers.grains, y, out, strength);

@@ -13,6 +13,7 @@
 #include "render/picture/container/ground.hpp"
 #include "render/picture/gl/opengl.hpp"
 #include "render/picture/spheres/layer.hpp"
+#include "render/picture/spheres/light/wall_light.hpp"
 
 namespace grainreel {
 
@@ -20,9 +21,10 @@ namespace grainreel {
 // multiplied by alpha.
 struct Layers {
     std::uint32_t background;
-    const Ground* ground;  // may be null
+    const Ground* ground;  // in place of the background; may be null
     const Layer& behind;
-    const Layer* meshes_behind;  // over `behind`; may be null
+    const WallLight* wall_light;  // darkens `behind` and what is seen through it; may be null
+    const Layer* meshes_behind;   // over `behind`; may be null
     const Layer& grains;
     const Layer* ghosts;         // laid over the grains at a part of their strength; may be null
     const Layer* meshes_before;  // under `before`; may be null

@@ -12,6 +12,7 @@
 #include "render/picture/base/view.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/container_drawing.hpp"
+#include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/container/ground.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/grains/spheres.hpp"
@@ -78,12 +79,13 @@ struct Renderer::Impl {
           sphere_painter(s, port.width, port.height, team, false),
           words(s.film.width, s.film.height) {
         if (!s.film.shows.ghosts.empty()) ghost_painter.emplace(s, port.width, port.height, team, true);
-        // There is no ground where grains fall through.
-        const bool falls_through = (s.container.outlet && !s.container.tray) || !s.exits.empty();
-        const bool stands = s.container.shape != Container::Shape::none && s.film.camera.up == Vec3(0, 0, 1);
-        if (s.film.look.ground && !s.film.transparent && stands && !falls_through)
-            ground.emplace(scene, port);
+        const bool stands = s.container.shape != Container::Shape::none || meshes.any();
+        if (s.film.look.ground && !s.film.transparent && stands) ground.emplace(scene, palette, port);
         if (meshes.any()) mesh_painter.emplace(port.width, port.height);
+        if (!sphere_painter.takes_light()) return;
+        if (s.container.shape != Container::Shape::mesh || !s.walls.empty())
+            wall_light.emplace(port.width, port.height);
+        if (meshes.any()) mesh_light.emplace(port.width, port.height);
     }
 
     // The members that are deleted belong to the context, so the context must be current.
@@ -118,6 +120,7 @@ struct Renderer::Impl {
     std::optional<MeshPainter> mesh_painter;  // where there are meshes
     Marks marks;
     SpherePainter sphere_painter;
+    std::optional<WallLight> wall_light, mesh_light;  // of container and free walls, and of solid meshes
     std::optional<SpherePainter> ghost_painter;
     std::optional<Exposure> exposure;
     bool started = false;  // whether the film has begun, so that start heights are known
@@ -137,6 +140,7 @@ struct Renderer::Impl {
     const Layer& draw_grains(SpherePainter& painter, DrawStopwatch& watch);
     void draw_solid_meshes(const Shot& frame, DrawStopwatch& watch);
     void draw_other_meshes(DrawStopwatch& watch);
+    void light_walls(DrawStopwatch& watch);
     const Layer* draw_before();
     void start_from(const Shot& frame);
     void point_out(PointedOut what);
@@ -227,7 +231,9 @@ void Renderer::Impl::draw_moment(const Shot& true_frame, const Shot* marked, con
     eye = scene.film.camera.follow ? view.moved_by(way_of_container(scene, frame)) : view;
     const Shot& all = shown.of(frame);
     const Shot& opaque = ghost_painter ? solid.of(all) : all;
-    draw_container(scene, {view, eye, path.moves()}, frame, palette, scene.film.height, shapes);
+    const bool bright = sphere_painter.takes_light() && luminance(palette.background) <= 0.18;
+    draw_container(scene, {view, eye, path.moves(), scene.film.look.walls.clear, bright}, frame, palette,
+                   scene.film.height, shapes);
     watch.lap(&DrawTimes::walls);
     if (ground) ground->update(opaque, eye);
     watch.lap(&DrawTimes::shadow);
@@ -237,6 +243,7 @@ void Renderer::Impl::draw_moment(const Shot& true_frame, const Shot* marked, con
     watch.lap(&DrawTimes::upload);
     if (mesh_painter) draw_solid_meshes(frame, watch);
     const Layer& grains = draw_grains(sphere_painter, watch);
+    light_walls(watch);
     if (mesh_painter) draw_other_meshes(watch);
     if (ghost_painter) ghost_painter->take(eye, all);
     const Layer* ghosts = ghost_painter ? &draw_grains(*ghost_painter, watch) : nullptr;
@@ -249,6 +256,7 @@ void Renderer::Impl::draw_moment(const Shot& true_frame, const Shot* marked, con
     compose({.background = background(palette.background, scene.film.transparent),
              .ground = ground ? &*ground : nullptr,
              .behind = walls_behind,
+             .wall_light = wall_light ? &*wall_light : nullptr,
              .meshes_behind = mesh_painter ? &mesh_painter->behind() : nullptr,
              .grains = grains,
              .ghosts = ghosts,
@@ -292,6 +300,20 @@ void Renderer::Impl::draw_other_meshes(DrawStopwatch& watch) {
     mesh_painter->draw_rest(mesh_projection, sphere_painter.sight(), sphere_painter.visibility(),
                             mesh_inks(palette), team);
     watch.lap(&DrawTimes::walls);
+}
+
+void Renderer::Impl::light_walls(DrawStopwatch& watch) {
+    constexpr double kCornerReach = 0.35;  // of the container's smallest side
+    const Container& c = scene.container;
+    if (wall_light)
+        sphere_painter.light_walls(
+            *wall_light, static_cast<float>(kCornerReach * std::min({2 * c.half_width, c.height,
+                                                                     is_prism(c) ? c.depth : 1e300})));
+    if (mesh_light) {
+        sphere_painter.light_meshes(*mesh_light, mesh_painter->pixels(mesh_projection));
+        mesh_painter->darken(*mesh_light, team);
+    }
+    watch.lap(&DrawTimes::shadow);
 }
 
 // Draws the grains that the painter has taken.

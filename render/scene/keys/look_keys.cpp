@@ -36,10 +36,12 @@ BoundKey<FilmLook> light(const char* name, bool FilmLook::*member, const char* a
 const KeyTable<FilmLook>& look_table() {
     static const KeyTable<FilmLook> table{
         style_key(),
-        light("occlusion", &FilmLook::occlusion, "Less light reaches the gaps between grains."),
-        light("shadows", &FilmLook::shadows, "Of grains on other grains."),
+        light(
+            "occlusion", &FilmLook::occlusion,
+            "Less light reaches the gaps between grains, their feet on walls, and corners where walls meet."),
+        light("shadows", &FilmLook::shadows, "Of grains on other grains and on walls."),
         light("ground", &FilmLook::ground,
-              "Under the container, to show its shadow; none where grains leave below an outlet."),
+              "Under the container or the meshes, with their shadow, and the backdrop behind it."),
         flag("rotation", &FilmLook::rotation, initial(),
              "Grains are light on one half and dark on the other and so show how they turn."),
     };
@@ -104,6 +106,27 @@ std::vector<std::string> mesh_names(Document& document, const Scene& scene, cons
             document.fail(path, fmt::format("names the mesh \"{}\", which is not there; there is {}",
                                             excerpt(name), known.empty() ? "none" : known));
     return names;
+}
+
+// `true`, or the names of meshes.
+BoundKey<FilmWalls> glass_key() {
+    return bound_by<FilmWalls>(
+        entry("glass", KeyKind::name_list, note("by their shape"),
+              "Meshes that are glass from outside and solid from within; or true: all walls, those of the "
+              "container too, are glass from both sides."),
+        [](Document& document, const Scene& scene, const std::string& path, FilmWalls& into) {
+            if (!document.has(path)) return;
+            if (document.is_array(path))
+                into.glass = mesh_names(document, scene, path);
+            else
+                into.clear = document.flag(path).value_or(false);
+        },
+        [](const FilmWalls& from, const Scene&) {
+            if (from.clear) return std::string("true");
+            std::vector<std::string> words;
+            for (const std::string& word : from.glass) words.push_back(quoted(word));
+            return words.empty() ? "" : toml_list(words);
+        });
 }
 
 BoundKey<FilmWalls> names_key(const char* name, std::vector<std::string> FilmWalls::*member,
@@ -172,7 +195,7 @@ const KeyTable<FilmWalls>& walls_table() {
                  "Edges of a mesh whose faces turn more than this are drawn, beside its outlines.")
             .unwritten_if([](const FilmWalls& walls) { return walls == FilmWalls(); }),
         names_key("solid", &FilmWalls::solid, "Meshes that hide what is behind them from all sides."),
-        names_key("glass", &FilmWalls::glass, "Meshes that are glass from outside and solid from within."),
+        glass_key(),
     };
     return table;
 }

@@ -191,6 +191,33 @@ TEST_F(ResumedRun, GluedGrainsStayAsStiff) {
     }
 }
 
+// Where restitution depends on speed, the plan's stiffness is that of the expected impact, and sums of wall
+// forces count in units of it. A run that goes on rains no more, but it expects what it expected when it
+// began.
+TEST_F(ResumedRun, RestitutionByImpactSpeedCountsWallForcesOn) {
+    const std::string top = SmallScene().beads(40).contacts("0.7", "0.3").text(),
+                      bed = SmallScene().box("30 mm", "20 mm", "100 mm").shaken("60 Hz", "1.5").text();
+    const std::string rest =
+        "[start]\nmethod = \"rain\"\nrain_rate = 2000\nsettle_limit = 0.02\n[run]\naccuracy = \"draft\"\n"
+        "[output]\ninstruments = [\"walls\"]\nmeasures_interval = \"5 ms\"\n";
+    for (const char* by_speed :
+         {"restitution_speed = 0.5\n",
+          "wall.restitution_table = [[\"1 mm/s\", 0.9], [\"0.1 m/s\", 0.8], [\"2 m/s\", 0.5]]\n"}) {
+        SCOPED_TRACE(by_speed);
+        for (const char* folder : {"whole", "run"}) fs::remove_all(here / folder);
+        write_text(here / "rain.toml", top + "law = \"walton-braun\"\n" + by_speed + bed + rest);
+        Words words = {"movie", "rain.toml", "--no-film", "--no-report", "--threads",
+                       "1",     "--out",     "whole",     "--duration",  "0.1 s"};
+        ASSERT_EQ(run(words).status, 0);
+        words[7] = "run", words[9] = "0.05 s";
+        ASSERT_EQ(run(words).status, 0);
+        const Ended ended = run({"resume", "run", "--for", "0.05 s", "--no-report"});
+        ASSERT_EQ(ended.status, 0) << ended.err;
+        expect_same("whole", "run");
+        EXPECT_THAT(ended.err, testing::Not(HasSubstr("warning:"))) << "its contacts are those of the start";
+    }
+}
+
 TEST_F(ResumedRun, GrainsThatLeaveAreToldOnce) {
     const Words more = {"--duration", "1 s", "--no-film", "--set",
                         "container.outlet={width=\"9 mm\", exit_depth=\"6 mm\"}"};

@@ -112,7 +112,8 @@ for wall in head["walls"]:
     mesh.from_pydata(wall["vertices"], [], wall["triangles"])
     thing = bpy.data.objects.new(wall["name"], mesh)
     thing.rotation_mode = "QUATERNION"
-    mesh.materials.append(material(wall["name"], (0.75, 0.8, 0.85), 0.2))
+    mesh.materials.append(material(wall["name"], (0.66, 0.70, 0.75)))
+    mesh.materials.append(material(wall["name"] + " in front", (0.75, 0.8, 0.85), 0.06))
     bpy.context.collection.objects.link(thing)
     walls.append(thing)
 
@@ -150,10 +151,24 @@ camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
 camera.data.clip_start, camera.data.clip_end = size / 1000, size * 100
 camera.location = middle + Vector((1.3, -0.5, 0.35)).normalized() * 2.8 * size  # all of the container is seen
 camera.rotation_euler = (middle - camera.location).to_track_quat("-Z", "Y").to_euler()
-sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
-sun.data.energy = 2
-sun.rotation_euler = (0.6, 0.3, 0.8)
-for thing in (camera, sun):
+to_camera = (camera.location - middle).normalized()
+# Walls between the camera and the bed are all but clear, so that the bed is seen.
+for thing, wall in zip(walls, head["walls"]):
+    for face in thing.data.polygons:
+        outward = face.normal if face.normal.dot(face.center - middle) > 0 else -face.normal
+        face.material_index = 1 if outward.dot(to_camera) > 0.3 else 0
+# A wide lamp over the viewer's left shoulder, as in the films, and a ground under the lowest wall.
+lamp = bpy.data.objects.new("lamp", bpy.data.lights.new("lamp", "AREA"))
+lamp.data.shape, lamp.data.size = "DISK", 0.5 * size
+left = Vector((0, 0, 1)).cross(to_camera).normalized() * -1
+lamp.location = middle + 2.2 * size * (0.48 * left + 0.58 * to_camera + Vector((0, 0, 0.66)))
+lamp.rotation_euler = (middle - lamp.location).to_track_quat("-Z", "Y").to_euler()
+lamp.data.energy = 9 * (2.2 * size) ** 2  # W: the light on the bed does not depend on its size
+bpy.ops.mesh.primitive_plane_add(size=60 * size, location=(middle.x, middle.y, float(low[2]) - 1e-3 * size))
+ground = bpy.context.object
+ground.name = "ground"
+ground.data.materials.append(material("ground", (0.8, 0.8, 0.8)))
+for thing in (camera, lamp):
     bpy.context.collection.objects.link(thing)
 scene.camera = camera
 scene.world = scene.world or bpy.data.worlds.new("world")

@@ -39,10 +39,11 @@ void LightGrid::set_cells(const std::vector<ViewSphere>& spheres, float reach) {
     per_cell_ = 1 / size;
     for (int a = 0; a < 3; ++a) cells_[a] = static_cast<int>((high[a] - low_[a]) * per_cell_) + 1;
     reach_ = reach;
-    widest_small_ = 0;
-    for (const ViewSphere& s : spheres)
+    widest_small_ = widest_any_ = 0;
+    for (const ViewSphere& s : spheres) {
+        widest_any_ = std::max(widest_any_, s.radius);
         if (s.radius <= small_) widest_small_ = std::max(widest_small_, s.radius);
-    widest_ = (1 + reach) * widest_small_;
+    }
 }
 
 template <class Visit>
@@ -107,7 +108,7 @@ void Neighbourhood::find_occluders(std::size_t slot, std::uint32_t pool) {
     into.found.clear();
     into.forget_met();
     const std::size_t first = into.all.size();
-    grid_.around(own, [&](std::uint32_t j) {
+    grid_.around(own, kReach, [&](std::uint32_t j) {
         if (into.has_met(j)) return;
         const ViewSphere& other = (*spheres_)[j];
         const float dx = other.x - own.x, dy = other.y - own.y, dz = other.z - own.z;
@@ -155,8 +156,9 @@ void Neighbourhood::update(const std::vector<ViewSphere>& spheres, const Cut& cu
     occluders_.assign(shown.size(), {});
     casters_.assign(shown.size(), {});
     pools_.resize(static_cast<std::size_t>(team.size()));
-    if (shown.empty() || (!lamp.occlusion && !lamp.shadows)) return;
-    grid_.fill(spheres, lamp, kReach);
+    grid_.clear();
+    if (!lamp.occlusion && !lamp.shadows) return;
+    grid_.fill(spheres, lamp, kWallReach);
     constexpr std::size_t kShare = 64;
     std::atomic<std::size_t> next{0};
     team.run([&](int member) {

@@ -17,15 +17,15 @@ namespace grainreel {
 // and the light, are both found along short rows of cells.
 class LightGrid {
   public:
-    // reach: how far from its surface a sphere must be found, in its radii.
+    // reach: how far from its surface a sphere can be found, in its radii.
     void fill(const std::vector<ViewSphere>& spheres, const Lamp& lamp, float reach);
 
-    // Calls visit(index) for every sphere that may be within its own reach of `s`, also for `s` itself. visit
-    // may be called more than once for a large sphere.
+    // Calls visit(index) for every sphere whose surface may be within `reach` of its radii of `s`, also for
+    // `s` itself. reach: at most that of fill(). visit may be called more than once for a large sphere.
     template <class Visit>
-    void around(const ViewSphere& s, const Visit& visit) const {
+    void around(const ViewSphere& s, float reach, const Visit& visit) const {
         const Place at = place(s);
-        const float wide = s.radius + widest_;
+        const float wide = s.radius + (1 + reach) * widest_small_;
         for (int u = cell(at[0] - wide, 0); u <= cell(at[0] + wide, 0); ++u)
             for (int v = cell(at[1] - wide, 1); v <= cell(at[1] + wide, 1); ++v)
                 visit_row(u, v, cell(at[2] - wide, 2), cell(at[2] + wide, 2), visit);
@@ -47,6 +47,32 @@ class LightGrid {
                 for (int v = v0; v <= v1; ++v) visit_row(u, v, w, w, visit);
     }
 
+    // Whether a sphere may be within its own reach of `s`.
+    bool may_reach(const ViewSphere& s) const {
+        return overlaps(place(s), s.radius + (1 + reach_) * widest_any_);
+    }
+
+    // Calls visit(index) for spheres that may stand between `s` and any part of the lamp, in layers of cells
+    // towards it, until enough() is true after a layer. spread: tangent of half the angle of the lamp.
+    template <class Visit, class Enough>
+    void towards_lamp(const ViewSphere& s, float spread, const Visit& visit, const Enough& enough) const {
+        const Place at = place(s);
+        const float foot = at[2] - s.radius;
+        for (int w = cell(foot - widest_small_, 2); w < cells_[2] && !enough(); ++w) {
+            const float top = low_[2] + static_cast<float>(w + 1) / per_cell_;
+            const float wide = s.radius + spread * std::max(top - foot, 0.0f);
+            Place beside = at;
+            beside[2] = top;
+            if (!overlaps(beside, wide + widest_any_)) continue;
+            const float look = wide + widest_small_;
+            for (int u = cell(at[0] - look, 0); u <= cell(at[0] + look, 0); ++u)
+                for (int v = cell(at[1] - look, 1); v <= cell(at[1] + look, 1); ++v)
+                    if (top_[column(u, v)] >= w) visit_row(u, v, w, w, visit);
+        }
+    }
+    bool empty() const { return start_.empty(); }
+    void clear() { start_.clear(); }
+
     // m: the height along the direction of the key light.
     float height(const ViewSphere& s) const { return place(s)[2]; }
 
@@ -60,6 +86,12 @@ class LightGrid {
     int cell(float coordinate, int axis) const {
         return static_cast<int>(
             std::clamp((coordinate - low_[axis]) * per_cell_, 0.0f, static_cast<float>(cells_[axis] - 1)));
+    }
+    bool overlaps(const Place& at, float wide) const {
+        for (int a = 0; a < 3; ++a)
+            if (at[a] + wide < low_[a] || at[a] - wide > low_[a] + static_cast<float>(cells_[a]) / per_cell_)
+                return false;
+        return true;
     }
     std::size_t column(int u, int v) const { return static_cast<std::size_t>(u) * cells_[1] + v; }
     template <class Visit>
@@ -79,8 +111,8 @@ class LightGrid {
     float per_cell_ = 1;  // 1/m
     float reach_ = 0;
     float small_ = 0;         // m: radius up to which a sphere is put into the cell of its centre alone
-    float widest_ = 0;        // m: how far from its centre such a sphere has to be found
     float widest_small_ = 0;  // m: the largest radius of these spheres
+    float widest_any_ = 0;    // m: the largest radius of all
     std::vector<std::uint32_t> start_, item_;
     std::vector<int> top_;  // a column's last cell that holds something, or -1
 };
@@ -98,6 +130,11 @@ class Neighbourhood {
 
     // A grain takes ambient light from others up to this distance from its surface, in its radii.
     static constexpr float kReach = 1.0f;
+    // A wall gives ambient light to grains up to this distance from their surface.
+    static constexpr float kWallReach = 2.0f;
+
+    // All spheres. It is empty where nothing is seen or no light is taken.
+    const LightGrid& grid() const { return grid_; }
 
   private:
     struct Range {

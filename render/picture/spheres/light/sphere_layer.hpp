@@ -10,6 +10,7 @@
 #include "engine/base/team.hpp"
 #include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/light/neighbourhood.hpp"
+#include "render/picture/spheres/light/wall_light.hpp"
 #include "render/picture/spheres/sphere_kernels.hpp"
 #include "render/picture/spheres/visibility.hpp"
 #include "render/picture/spheres/wall_order.hpp"
@@ -105,6 +106,9 @@ class SphereLayer {
     const Visibility& visibility() const { return visibility_; }
     const Neighbourhood& neighbourhood() const { return neighbourhood_; }
     const WallOrder& wall_order() const { return wall_order_; }
+    LightTakers takers(const Sight& sight, const Cut& cut, const Lamp& lamp, const Spheres& spheres) const {
+        return {sight, lamp, cut, spheres.spheres, neighbourhood_.grid(), visibility_};
+    }
 
   private:
     Visibility visibility_;

@@ -1,0 +1,45 @@
+"""What goes wrong, in Python's words."""
+from __future__ import annotations
+
+import re
+
+
+class GrainreelError(Exception):
+    """What the program, a file of a run, or an argument says is wrong: one line that says what to do."""
+
+
+# Options whose arguments have another name, or that an argument turns off or on.
+_ARGUMENTS = {"force": "force=True", "no-film": "film=False", "no-report": "report=False", "no-cache": "cache=False",
+              "no-replay": "replay=False", "from": "start", "to": "end", "until": "end", "retry": "retry=True",
+              "films": "films=True", "one": "one=True", "over-time": "over_time=True", "through": "through=True",
+              "largest-overlap": "largest_overlap=True", "transparent": "transparent=True",
+              "pair-distribution": "pair_distribution=True", "duration": "run__duration", "seed": "run__seed",
+              "title": "title"}
+
+
+def in_python(text: str, verb: str = "") -> str:
+    """The program's message with arguments in place of options: "--time-step 1us" is time_step="1us"."""
+    text = re.sub(r"--set ([\w.]+)", r"\1", text)
+    text = re.sub(r"see \S*grainreel (\w+) --help", r"see help(grainreel.\1)", text)
+
+    def argument(match: re.Match[str]) -> str:
+        option, value = match.groups()
+        if option == "to" and verb == "export":
+            return "to" + (f' "{value}"' if value else "")
+        name = _ARGUMENTS.get(option, option.replace("-", "_"))
+        return name + (f'="{value}"' if value else "")
+
+    return re.sub(r"(?<![\w-])--([a-z][a-z-]*)(?: (\d[\w.]*))?", argument, text)
+
+
+def wrong(what: str, wanted: str, value: object) -> GrainreelError:
+    """The error for an argument of another kind than is wanted."""
+    return GrainreelError(f"{what}: must be {wanted}, but is {_short(value)}")
+
+
+def _short(value: object) -> str:
+    try:
+        text = " ".join(repr(value).split())
+    except Exception:  # a __repr__ of the user's that fails
+        text = f"a {type(value).__name__}"
+    return text if len(text) <= 80 else text[:77] + "..."

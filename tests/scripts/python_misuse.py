@@ -1,0 +1,168 @@
+"""Misuse of the Python module: whatever is wrong is a GrainreelError of one line, in Python's words."""
+import gc
+import json
+import multiprocessing
+import os
+import pickle
+import time
+from pathlib import Path
+
+import grainreel
+import numpy
+
+
+def _fork_draws(expected):
+    os._exit(0 if (grainreel.render("line", size="160x120") == expected).all() else 1)
+
+
+class Odd:
+    """A value whose words fail too."""
+
+    def __repr__(self):
+        raise RuntimeError("no words")
+
+
+def calls(run):
+    """Each with the words that its message must have."""
+    start, render, inspect = grainreel.start, grainreel.render, grainreel.inspect
+    nul, half = "a\0b", "a\ud800b"
+    return [
+        # arguments that no program can be given
+        ("scene: has a NUL", lambda: start(nul)), ("scene: has a lone surrogate", lambda: start(half)),
+        ("text: has a NUL", lambda: start(text=nul)), ("text: has a lone surrogate", lambda: start(text=half)),
+        ("out: has a NUL", lambda: start("scene.toml", out=nul)), ("out: is empty", lambda: start("scene.toml", out="")),
+        ("drive.frequency: has a NUL", lambda: start("scene.toml", drive__frequency=nul)),
+        ("film.title: has a lone surrogate", lambda: render(run, title=half)),
+        ("where: has a NUL", lambda: inspect(run, where=nul)), ("run: has a NUL", lambda: grainreel.open(nul)),
+        ("program: has a NUL", lambda: start("scene.toml", program=nul)),
+        ("a key of set: has a NUL", lambda: start("scene.toml", set={nul: 1})),
+        # of another type
+        ("scene: must be a path, but is 3", lambda: start(3)), ("scene: must be a path", lambda: start(Odd())),
+        ("or be given as text=", lambda: start()), ("leave one out", lambda: start("scene.toml", text="")),
+        ("text: must be text", lambda: start(text=b"x")), ("out: must be a path", lambda: start("scene.toml", out=3)),
+        ("set: must be a dict", lambda: start("scene.toml", set=["drive.g_level=3"])),
+        ("a key of set: must be text", lambda: start("scene.toml", set={3: 3})),
+        ("drive.frequency: must be text, a number", lambda: start("scene.toml", drive__frequency=None)),
+        ("drive.frequency: must be text, a number", lambda: start("scene.toml", drive__frequency=Odd())),
+        ("drive.frequency: must be text, a number", lambda: start("scene.toml", drive__frequency=1j)),
+        ("threads: must be a number", lambda: start("scene.toml", threads="two")),
+        ("threads: must be a whole number", lambda: start("scene.toml", threads=1.5)),
+        ("progress: must be True or a function", lambda: grainreel.run("scene.toml", progress=3)),
+        ("at: must be a number", lambda: render(run, at=[1, 2])), ("at: must be a time", lambda: render(run, at="soon")),
+        ("at: must be a time", lambda: render(run, at=float("nan"))),
+        ("at: must be a number", lambda: inspect(run, at=run.time)),
+        ("frame: must be a whole number", lambda: render(run, frame=0.5)),
+        ("both name a moment", lambda: render(run, at=0, frame=0)),
+        ("size: must be as", lambda: render(run, size=3)), ("size: must be as", lambda: render(run, size=(3, 4, 5))),
+        ("size: must be as", lambda: render(run, size=(3, "x"))), ("film.size", lambda: render(run, size=(0, 0))),
+        ("colour: must be a number for each grain", lambda: render(run, colour="speed")),
+        ("has the shape (2, 2)", lambda: render(run, colour=numpy.zeros((2, 2)))),
+        ("3 values for the colours of 50 grains", lambda: render(run, colour=[1, 2, 3])),
+        ("no value that can be shown", lambda: render(run, colour=[float("nan")] * 50)),
+        ("leave one of them out", lambda: render(run, colour=[1] * 50, colour__by="speed")),
+        ("colour__range: must be two numbers", lambda: render(run, colour=[1] * 50, colour__range=3)),
+        ("film.colour.range: needs", lambda: render(run, colour=[1] * 50, colour__range=(2, 1))),
+        ("colour__scale: must be linear or", lambda: render(run, colour=[1] * 50, colour__scale="root")),
+        ("there is no map", lambda: render(run, colour=[1] * 50, colour__map="jet")),
+        ("a frame: must be a whole number or a slice", lambda: run["kinetic_J"]),
+        ("time: must be a number", lambda: run.sel(time=[0, 1])),
+        ("no frame is at", lambda: run.sel(time=0.01, method=None)),
+        ("what: must be", lambda: run.to_dataframe("grain")),
+        ("no such argument", lambda: grainreel.open("two.xyz", radii=3)),
+        ("is for files of other programs", lambda: grainreel.open("line", radius="2 mm")),
+        ("runs: must be a path or a list", lambda: grainreel.compare(3)),
+        ("vary: must be one key", lambda: grainreel.compare("scene.toml", vary={"a": 1, "b": 2})),
+        ("captions", lambda: grainreel.compare([run, run], captions=["one"])),
+        # what the program refuses, in Python's words
+        ("drive.frequencie: unknown key", lambda: start("scene.toml", drive__frequencie=3).result()),
+        ("force=True", lambda: grainreel.run("scene.toml", out="line")),
+        ("text:1:1: there are no grains", lambda: grainreel.run(text="title = 'x'")),
+        ("text:2:1", lambda: grainreel.run(text="title = 'x'\ncolour = 3")),
+        ("scene", lambda: grainreel.run({"title": "x", "colour": 3})),
+        ("is not found", lambda: grainreel.run("scene.toml", program="no-such-program")),
+        ("is no folder of a run", lambda: grainreel.open("/")), ("no such", lambda: grainreel.open("nothing.xyz")),
+        ("no-such-column", lambda: inspect(run, steady="no-such-column")),
+        ("to", lambda: run.export("paper")), ("study:", lambda: grainreel.study({"scene": 3}, out="odd"))]
+
+
+def told(call):
+    """The message; what else comes through is a fault of the module."""
+    try:
+        call()
+    except grainreel.GrainreelError as error:
+        return str(error)
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+    return "no mistake"
+
+
+def check_messages(run):
+    wrong = []
+    for words, call in calls(run):
+        said = told(call)
+        if words not in said or "\n" in said or said.startswith(("error", "TypeError", "ValueError")) or " --" in said:
+            wrong.append(f"'{words}' is expected in one line, it says: {said}")
+    if Path(".").glob(".grainreel-*") and list(Path(".").glob(".grainreel-*")):
+        wrong.append("files of scenes that were texts are left behind")
+    return wrong
+
+
+def check_damage():
+    """Files of a run that are not what they were."""
+    wrong, folder = [], Path("damaged")
+    folder.mkdir(exist_ok=True)
+    (folder / "scene.toml").write_text("title = ")
+    for file, data, words, read in (
+            ("measures.csv", b"step,time_s\n1,x\n", "is damaged", lambda run: run.measures),
+            ("measures.csv", b"\xff\xfe", "is damaged", lambda run: run.measures),
+            ("measures.csv", b"step\n1\n", "no column time_s", lambda run: run.measures),
+            ("run.json", b"{", "is damaged", lambda run: run.record), ("run.json", b"[1]", "is damaged", repr),
+            ("run.json", b"\xff", "is damaged", lambda run: run.record),
+            ("trajectory.nc", b"\x89HDF no more", "cannot be read", len),
+            ("scene.toml", b"title = ", "is damaged", lambda run: run.scene)):
+        (folder / file).write_bytes(data)
+        said = told(lambda: read(grainreel.open(folder)))
+        if words not in said or file not in said or "\n" in said:
+            wrong.append(f"of a damaged {file} it says: {said}")
+    return wrong
+
+
+def check_ends(scene="scene.toml"):
+    """result() twice, stop() afterwards, a run that is dropped, and one that is pickled."""
+    wrong = []
+    running = grainreel.start(scene, out="twice", run__duration="0.02 s")
+    run = running.result()
+    if running.result() is not run or list(running) or running.wait() != running.wait():
+        wrong.append("a second result() is another")
+    running.stop()
+    running = grainreel.start(scene, out="refused", drive__frequencie=3)
+    if told(running.result) != told(running.result) or "frequencie" not in told(running.result):
+        wrong.append(f"a second result() of a mistake says: {told(running.result)}")
+    running = grainreel.start(scene, out="dropped", run__duration="1000 s")
+    if "cannot be pickled" not in told(lambda: pickle.dumps(running)):
+        wrong.append(f"a run that goes on is pickled: {told(lambda: pickle.dumps(running))}")
+    next(now for now in running if now["stage"] == "vibrating")
+    del running
+    gc.collect()
+    while json.loads(Path("dropped/run.json").read_text())["status"] == "running":  # the watchdog ends a test that hangs
+        time.sleep(0.02)
+    status = json.loads(Path("dropped/run.json").read_text())["status"]
+    if status != "interrupted":
+        wrong.append(f"a dropped run is {status}")
+    return wrong
+
+
+def check_fork():
+    """A forked process draws too, with a program of its own, and its parent goes on drawing."""
+    before = grainreel.render("line", size="160x120")
+    process = multiprocessing.get_context("fork").Process(target=_fork_draws, args=(before,))
+    process.start()
+    process.join()
+    after = grainreel.render("line", size="160x120")
+    return [] if process.exitcode == 0 and (before == after).all() else ["after a fork pictures differ"]
+
+
+def check():
+    """Needs the folder in which python_lines.check() has run."""
+    with grainreel.open("line") as run:
+        return check_messages(run) + check_damage() + check_ends() + check_fork()
