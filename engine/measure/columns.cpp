@@ -98,11 +98,42 @@ bool is_of_a_species(const Scene& scene, const std::string& column, const std::s
                        [&](const Species& species) { return column == column_part(species.name) + what; });
 }
 
+// J: the bed's kinetic energy at the drive's speed, or, at rest, what its weight does on the way down.
+double usual_energy(const Scene& scene) {
+    if (scene.drive.present) return 0.5 * total_mass(scene) * math::square(scene.drive.top_speed());
+    return total_mass(scene) * scene.gravity.norm() * scene.container.height;
+}
+
+// The size that values of this dimension usually have in this scene; 0 where nothing sets it.
+double usual_size(const Scene& scene, Dimension dimension) {
+    const double weight = total_mass(scene) * scene.gravity.norm();
+    switch (dimension) {
+        case Dimension::mass:
+            return total_mass(scene);
+        case Dimension::mass_flow:
+            return scene.run.duration > 0 ? total_mass(scene) / scene.run.duration : 0;
+        case Dimension::energy:
+            return usual_energy(scene);
+        case Dimension::force:
+            return weight;
+        case Dimension::moment:
+            return weight * scene.container.height;
+        case Dimension::time:
+            return scene.run.duration;
+        case Dimension::frequency:
+            return scene.drive.present ? scene.drive.highest_frequency() : 0;
+        default:
+            return 0;
+    }
+}
+
 double expected_of(const Scene& scene, const std::string& column) {
-    if (column == "outflow_kg") return total_mass(scene);
-    if (column == "bed_top_m" || is_of_a_species(scene, column, "_height_m")) return scene.container.height;
-    if (column == "kinetic_J" && scene.drive.present)
-        return 0.5 * total_mass(scene) * math::square(scene.drive.top_speed());
+    if (column == "bed_top_m" || column.starts_with("centre_") || is_of_a_species(scene, column, "_height_m"))
+        return scene.container.height;
+    for (const ObserverColumns& entry : observer_columns())
+        for (const ColumnGroup& group : entry.groups(scene))
+            for (const MeasureColumn& one : group.columns)
+                if (one.name == column) return usual_size(scene, one.dimension);
     return 0;
 }
 

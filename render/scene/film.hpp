@@ -15,6 +15,7 @@
 #include "engine/base/vector.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/scene/live_text.hpp"
+#include "render/scene/wording.hpp"
 
 namespace grainreel {
 
@@ -124,7 +125,10 @@ struct FilmPlot {
     Dimension dimension = Dimension::number;
     ProfileOf profile = ProfileOf::nothing;  // the profile shown in place of a column
     bool across = false;                     // a profile runs over the width, else over the height
-    bool period = false;  // velocities and columns are means over the last period of the drive
+    // Velocities are means over the last period of the drive. So is the line of a column, and its rows are a
+    // faint line behind it.
+    bool period = false;
+    bool own_label = false;  // the label is the scene's own, and not the column's
     bool is_profile() const { return profile != ProfileOf::nothing; }
     bool of_velocity() const {
         return profile == ProfileOf::horizontal_velocity || profile == ProfileOf::vertical_velocity;
@@ -193,17 +197,19 @@ struct FilmShows {
     bool operator==(const FilmShows&) const = default;
 };
 
-// Which words and signs stand beside the grains. Film::words says where.
+// Which words and signs stand beside the grains. Film::words says where. By default there are three signs:
+// the time with its pace, what shakes, and the scale.
 struct WordKinds {
     bool title = true;
     bool legend = true;  // species, colours and marks
     bool time = true;
-    bool cycle = true;  // number of the drive's cycle, and its phase
-    bool dial = true;
-    bool drive = true;     // f, Gamma and amplitude
     bool playback = true;  // how fast the film plays
+    bool shaking = true;   // what shakes and which way, its frequency and Gamma
     bool scale = true;     // bar of a length
-    bool arrows = true;    // gravity and vibration
+    bool cycle = false;    // number of the drive's cycle, and its phase
+    bool dial = false;
+    bool drive = false;    // f, Gamma and amplitude
+    bool arrows = false;   // gravity, vibration, and the scale beside the floor
     bool counts = true;    // numbers of grains that have flowed out or lie in the tray
     bool captions = true;  // captions, and the headings of panels
     bool operator==(const WordKinds&) const = default;
@@ -337,6 +343,7 @@ struct Film {
     std::string preset = "veryfast";
     WordPlace words = WordPlace::automatic;
     WordKinds word_kinds;
+    Wording wording;  // language and own words
     bool axes = false;        // arrows along x, y and z beside the picture
     bool wall_ghost = false;  // the outline of the container at rest
     double exaggerate = 1;    // the motion of the container and its grains is drawn so many times as large

@@ -138,9 +138,9 @@ TEST(ContainerPicture, ExaggerationIsSaid) {
     const TypeScale type = type_scale(scene.film);
     const Palette palette = make_palette({1, 1, 1});
     const Writer measure{nullptr, type, palette};
-    const double plain = drive_block(measure, scene, nullptr, 0, 0).height;
+    const double plain = drive_block(measure, scene, nullptr, nullptr, 0, 0).height;
     scene.film.exaggerate = 5;
-    EXPECT_GT(drive_block(measure, scene, nullptr, 0, 0).height, plain + 2 * measure.type.minor);
+    EXPECT_GT(drive_block(measure, scene, nullptr, nullptr, 0, 0).height, plain + 2 * measure.type.minor);
 }
 
 // The ghost is the container's outline at rest, wherever the container is.

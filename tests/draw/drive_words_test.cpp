@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/drive_schedule.hpp"
+#include "render/picture/panels/panel_words.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
@@ -75,9 +76,9 @@ TEST(CaptionWords, AreThereInTheirTime) {
     FilmedScene scene = wedge();
     scene.film.captions = {{1, 2, "one", 0}, {2, 3, "two", 0}};
     const auto at = [&](double time) {
-        State frame;
+        Shot frame;
         frame.time = time;
-        return note_text(scene, frame);
+        return panel_note(scene, frame);
     };
     EXPECT_EQ(at(0.9), "");
     EXPECT_EQ(at(1), "one");
@@ -85,7 +86,8 @@ TEST(CaptionWords, AreThereInTheirTime) {
     EXPECT_EQ(at(3), "");
     scene.film.shows.live_words = {{"always", "", "", 1}};
     EXPECT_EQ(at(2.5), "always\n\ntwo");
-    EXPECT_THAT(longest_notes(scene), ElementsAre("always", "always\n\none", "always\n\ntwo"));
+    EXPECT_EQ(longest_note(scene), "always");
+    EXPECT_THAT(longest_panel_notes(scene), ElementsAre("always", "always\n\none", "always\n\ntwo"));
 }
 
 }  // namespace

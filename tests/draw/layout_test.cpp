@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "render/picture/plots/plot.hpp"
 #include "render/picture/words/blocks.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/support.hpp"
@@ -49,6 +50,7 @@ std::vector<Named> blocks_of(const FilmedScene& scene, const PictureLayout& layo
     const Palette palette = make_palette(scene.film.background);
     const Writer measure{nullptr, layout.type, palette};
     std::vector<Named> blocks{named("port", layout.port)};
+    if (layout.caption.height > 0) blocks.push_back(named("captions", layout.caption));
     const auto add = [&](const std::string& name, const Rectangle& gutter, double x, double y, double width,
                          double height) {
         if (width > 0 && height > 0)
@@ -65,7 +67,7 @@ std::vector<Named> blocks_of(const FilmedScene& scene, const PictureLayout& layo
     part("clock", plan.clock_part), part("caption", plan.caption_part), part("note", plan.note_part);
     if (plan.has_dial) part("dial", plan.dial_part);
     for (const Rectangle& plot : plan.plots) part("plot", plot);
-    const TextSize drive = drive_block(measure, scene, nullptr, 0, 0);
+    const TextSize drive = drive_block(measure, scene, nullptr, nullptr, 0, 0);
     if (scene.drive.changes())
         part("drive", plan.drive_part);
     else
@@ -104,6 +106,24 @@ TEST(Layout, NothingLiesOnAnythingElse) {
                 }
 }
 
+// A tenth of the room is for the ticks and the title.
+TEST(Layout, PlotsAreHighEnoughToBeRead) {
+    for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}, {640, 640}, {854, 480}}) {
+        FilmedScene scene = scene_of(width, height, {1, 2});
+        const PictureLayout layout = plan_layout(scene);
+        const Palette palette = make_palette({1, 1, 1});
+        const Writer measure{nullptr, layout.type, palette};
+        const NumbersPlan plan =
+            plan_numbers(measure, scene, layout.second.width, layout.second.height, layout.stacked);
+        ASSERT_EQ(plan.plots.size(), 1u) << width << "x" << height;
+        PlotRange frame = plot_frame(scene, scene.film.shows.plots[0]);
+        frame.range = {0, 1};
+        frame.width = plan.plots[0].width, frame.height = plan.plots[0].height;
+        const Plot plot(frame, layout.type, palette);
+        EXPECT_GE(plot.y_of(0) - plot.y_of(1), 0.125 * std::min(width, height) - 1) << width << "x" << height;
+    }
+}
+
 TEST(Layout, AWideBoxStandsBetweenWordsAboveAndBelow) {
     FilmedScene scene = scene_of(1280, 720, {0, 2});
     scene.film.camera.azimuth = 0;
@@ -119,13 +139,13 @@ TEST(Layout, AWideBoxStandsBetweenWordsAboveAndBelow) {
 }
 
 TEST(Layout, LettersShrinkBeforeWordsAreLeftOut) {
-    const FilmedScene roomy = scene_of(1280, 720, {0, 2});
+    const FilmedScene roomy = scene_of(1920, 1080, {0, 2});
     const double whole = type_scale(roomy.film).main;
     EXPECT_DOUBLE_EQ(plan_layout(roomy).type.main, whole);
     // As species are added, the letters become smaller before the first name is missing.
     bool smaller = false;
     for (std::size_t kinds = 2; kinds < 12; ++kinds) {
-        const PictureLayout layout = plan_layout(scene_of(1280, 720, {3, kinds, true, true}));
+        const PictureLayout layout = plan_layout(scene_of(1920, 1080, {1, kinds, true, true}));
         if (!layout.left_out.empty()) break;
         smaller = smaller || layout.type.main < 0.95 * whole;
     }
@@ -163,7 +183,7 @@ TEST(Layout, PlotsTakeFreeHeight) {
         const NumbersPlan plan = plan_numbers({nullptr, layout.type, palette}, scene, layout.second.width,
                                               layout.second.height, layout.stacked);
         ASSERT_EQ(plan.plots.size(), 1u);
-        EXPECT_NEAR(plan.plots[0].y + plan.plots[0].height, layout.second.height - layout.type.margin, 2);
+        EXPECT_NEAR(plan.plots[0].y + plan.plots[0].height, layout.second.height - layout.type.margin, 3);
     }
 }
 

@@ -23,7 +23,7 @@ namespace {
 constexpr bool WordKinds::*every_kind[] = {&WordKinds::title,    &WordKinds::legend,  &WordKinds::time,
                                            &WordKinds::cycle,    &WordKinds::dial,    &WordKinds::drive,
                                            &WordKinds::playback, &WordKinds::scale,   &WordKinds::arrows,
-                                           &WordKinds::counts,   &WordKinds::captions};
+                                           &WordKinds::counts,   &WordKinds::captions, &WordKinds::shaking};
 
 WordKinds none() {
     WordKinds kinds;
@@ -36,6 +36,7 @@ FilmedScene with_all_words(int width, int height) {
     scene.container.outlet = Outlet{Outlet::Shape::slot, 0.02, 0, 0.05};
     scene.film.shows.outflow = true;
     scene.film.captions = {{0, 5, "Words that stand there for a while", 0}};
+    for (const auto kind : every_kind) scene.film.word_kinds.*kind = true;
     return scene;
 }
 
@@ -99,9 +100,47 @@ TEST(WordsShown, EachKindStandsAlone) {
 // The marks beside the floor are explained among the arrows, and are left out together with them.
 TEST(WordsShown, MarksBesideTheFloorGoWithTheArrows) {
     FilmedScene scene = wedge();
+    scene.film.word_kinds.arrows = true;
     EXPECT_EQ(lab_marks(scene, scene.film.camera.azimuth).size(), 2u);
     scene.film.word_kinds.arrows = false;
     EXPECT_TRUE(lab_marks(scene, scene.film.camera.azimuth).empty());
+}
+
+// The film says the time and its pace, what shakes, and the scale. Other signs are there if they are asked for.
+TEST(WordsShown, ThreeSignsStandThereByDefault) {
+    const FilmedScene scene = wedge(1280, 720);
+    const WordKinds& kinds = scene.film.word_kinds;
+    EXPECT_TRUE(kinds.time && kinds.shaking && kinds.scale && kinds.legend && kinds.playback);
+    EXPECT_FALSE(kinds.cycle || kinds.dial || kinds.drive || kinds.arrows);
+    EXPECT_EQ(clock_words(scene, flowing()), "t = 1.250 s");
+    EXPECT_EQ(shaking_text(scene, flowing()), "20 Hz, " + drive_lines(scene, flowing())[1]);
+    EXPECT_EQ(shaking_text(scene, flowing(), {true, false}), "20 Hz");
+    EXPECT_TRUE(lab_marks(scene, scene.film.camera.azimuth).empty());
+}
+
+TEST(WordsShown, WhatShakesFollowsTheDrive) {
+    FilmedScene scene = wedge();
+    scene.drive.stages = {{DriveStage::Kind::rest, 1, 3, 0, 0, 0}};
+    EXPECT_EQ(shaking_text(scene, flowing()), "at rest");
+    scene.film.wording.language = Language::de;
+    EXPECT_EQ(shaking_text(scene, flowing()), "in Ruhe");
+    const Palette palette = make_palette({1, 1, 1});
+    const TypeScale type = type_scale(scene.film);
+    const Writer measure{nullptr, type, palette};
+    const double with = drive_block(measure, scene, nullptr, nullptr, 0, 0).height;
+    scene.film.word_kinds.shaking = false;
+    EXPECT_EQ(drive_block(measure, scene, nullptr, nullptr, 0, 0).height, 0);
+    EXPECT_GT(with, 0);
+}
+
+// Digits of DejaVu Sans are 0.729 of their letters' size high.
+TEST(WordsShown, DigitsAreElevenPixelsHighFrom480Lines) {
+    for (const auto& [width, height] : {std::pair{854, 480}, {640, 640}, {720, 1280}, {1920, 1080}}) {
+        const FilmedScene scene = wedge(width, height);
+        for (const double shrink : {1.0, 0.8})
+            EXPECT_GE(0.729 * type_scale(scene.film, shrink).minor, 10.999) << width << "x" << height;
+    }
+    EXPECT_EQ(type_scale(wedge(64, 64).film).minor, 10);
 }
 
 TEST(WordsShown, AnEmptyTitleIsNone) {
@@ -126,12 +165,12 @@ TEST(WordsShown, TextsFollow) {
     FilmedScene scene = with_all_words(640, 360);
     const Shot frame = flowing();
     EXPECT_THAT(note_text(scene, frame), testing::HasSubstr("12 of 1620 out"));
-    EXPECT_THAT(note_text(scene, frame), testing::HasSubstr("Words that stand"));
+    EXPECT_EQ(caption_at(scene.film, frame), "Words that stand there for a while");
     scene.film.word_kinds.counts = false;
-    EXPECT_EQ(note_text(scene, frame), "Words that stand there for a while");
-    scene.film.word_kinds.captions = false;
     EXPECT_EQ(note_text(scene, frame), "");
-    EXPECT_TRUE(longest_notes(scene).empty());
+    EXPECT_EQ(longest_note(scene), "");
+    scene.film.word_kinds.captions = false;
+    EXPECT_EQ(caption_at(scene.film, frame), "");
     EXPECT_EQ(clock_words(scene, frame), "t = 1.250 s\ncycle 25\nphase 0.25");
     scene.film.word_kinds.cycle = false;
     EXPECT_EQ(clock_words(scene, frame), "t = 1.250 s");

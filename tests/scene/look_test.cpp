@@ -226,9 +226,10 @@ TEST(Look, ProfilesStandInPlaceOfColumns) {
     expect_complaint({"film.plot=[{y=\"lacey\", smooth=\"day\"}]"}, "\"none\"");
     const FilmPlot rows = plots("[[film.plot]]\ny = \"lacey\"\n").at(0);
     const FilmPlot smooth = plots("[[film.plot]]\ny = \"lacey\"\nsmooth = \"period\"\n").at(0);
-    EXPECT_FALSE(rows.period);
+    EXPECT_TRUE(rows.period) << "with a drive, a plot is smooth";
     EXPECT_TRUE(smooth.period);
-    EXPECT_EQ(smooth.label, rows.label + ", mean of a period");
+    EXPECT_FALSE(plots("[[film.plot]]\ny = \"lacey\"\nsmooth = \"none\"\n").at(0).period);
+    EXPECT_EQ(smooth.label, rows.label);
     EXPECT_EQ(plots("[[film.plot]]\ny = \"lacey\"\nsmooth = \"period\"\nlabel = \"L\"\n").at(0).label, "L");
 }
 

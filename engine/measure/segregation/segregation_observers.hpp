@@ -22,7 +22,7 @@ inline std::string without_two_kinds(const Scene& scene) {
 class HeightDifference final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
-        return {{{{"height_difference", "height of big − small"}},
+        return {{{{"height_difference", "height of big − small, in bed heights"}},
                  "1",
                  "`NAME_height_m` of the species of the largest mean diameter minus that of the smallest, "
                  "divided by the height above the floor below which 95 % of all centres lie; if all species "
@@ -62,10 +62,10 @@ class BigInQuarters final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
         return {
-            {{{"big_in_top_quarter", "big grains in top quarter"}},
+            {{{"big_in_top_quarter", "share of big grains in the top quarter"}},
              "1",
              "share of the largest species' grains whose centres lie above 3/4 of the bed's height"},
-            {{{"big_in_bottom_quarter", "big grains in bottom quarter"}}, "1", "the same below 1/4 of it"}};
+            {{{"big_in_bottom_quarter", "share of big grains in the bottom quarter"}}, "1", "the same below 1/4 of it"}};
     }
     static std::string why_empty(const Scene& scene, const std::string&) { return without_two_kinds(scene); }
     void look(const ObservedState& m, std::vector<double>& row) override {
@@ -85,7 +85,7 @@ class BigAtWalls final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
         return {
-            {{{"big_at_walls", "big grains beside the walls"}},
+            {{{"big_at_walls", "share of big grains at the walls"}},
              "1",
              "share of the largest species' grains beside the left or right wall or slant, or a cylinder's "
              "wall: no grain of the smallest mean diameter fits between"}};

@@ -53,6 +53,7 @@ std::string size_with_plots(const std::vector<Panel>& panels, Film film) {
 std::vector<std::string> playback_of(const ShotSource& source, const Comparison& all) {
     const std::vector<FilmSegment>& segments = all.pictures.segments;
     const Drive &drive = source.scene().drive, &reference = all.members[all.reference]->scene().drive;
+    const Wording& say = source.scene().film.wording;
     const std::vector<State> moments = source.moments(all.pictures);
     std::vector<std::string> captions;
     for (std::size_t k = 0; k < segments.size(); ++k) {
@@ -64,8 +65,8 @@ std::vector<std::string> playback_of(const ShotSource& source, const Comparison&
                                 (drive.present && drive.frequency == reference.frequency));
         const double rate = all.film.film.rate;
         captions.push_back(as_planned
-                               ? playback_caption(played(segments[k], rate, schedule_clock(all)), drive, rate)
-                               : pacing_caption(inside, drive, rate));
+                               ? playback_caption(played(segments[k], rate, schedule_clock(all)), drive, rate, say)
+                               : pacing_caption(inside, drive, rate, say));
     }
     return captions;
 }

@@ -53,6 +53,7 @@ void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, StatePtr 
     film.extent = extent_;
     drive_ = scene.drive;
     rate_ = scene.film.rate;
+    wording_ = scene.film.wording;
     holds_.emplace(scene.film);
     frames_planned_ = frames_here_.value_or(pictures + held_frames(scene.film));
     film.check_folder = [this] { desk_.folder->lock().check_there(); };
@@ -66,7 +67,7 @@ void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, StatePtr 
 
 void FolderFilm::show(const Taken& picture, const FilmSegment& rule, const Clock& clock) {
     const auto timer = desk_.times.during("waiting for the film");
-    film_->take(picture.frame, pace_caption(rule, picture.periods, drive_, rate_, clock));
+    film_->take(picture.frame, pace_caption(rule, picture.periods, drive_, rate_, clock, wording_));
     times_.add(*picture.frame, 1 + holds_->begin_at(picture.frame->time));
 }
 

@@ -82,6 +82,7 @@ class FolderFilm final : public SideWork {
     std::optional<std::int64_t> frames_here_;
     Drive drive_;  // of the scene that is shown
     double rate_ = 0;
+    Wording wording_;
     std::optional<CaptionHolds> holds_;
     FilmTimesTable times_;
     FilmResult result_;

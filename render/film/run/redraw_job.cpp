@@ -133,7 +133,8 @@ void RedrawJob::show_what_there_is() {
         std::vector<Due> inside = shots_;
         std::erase_if(inside, [&](const Due& shot) { return shot.segment != static_cast<int>(segment); });
         captions_[segment] =
-            pacing_caption(moments_of(inside, source_.film()), scene_.drive, scene_.film.rate);
+            pacing_caption(moments_of(inside, source_.film()), scene_.drive, scene_.film.rate,
+                           scene_.film.wording);
     }
 }
 
@@ -143,7 +144,8 @@ void RedrawJob::choose_kept(const RenderRequest& what) {
     const std::optional<FilmSegment> segment = pacing_of(moments, scene_.drive, scene_.film.rate);
     for (const State& moment : moments) shots_.push_back({moment.step, 0});
     scene_.film.segments = {segment.value_or(FilmSegment())};
-    captions_ = {segment ? playback_caption(*segment, scene_.drive, scene_.film.rate) : ""};
+    captions_ = {
+        segment ? playback_caption(*segment, scene_.drive, scene_.film.rate, scene_.film.wording) : ""};
 }
 
 std::vector<std::string> RedrawJob::warnings() const {
@@ -179,7 +181,7 @@ std::string RedrawJob::caption_of(const Taken& picture) const {
     const auto segment = static_cast<std::size_t>(picture.segment);
     if (kept_alone_ || !captions_.at(segment).empty()) return captions_.at(segment);
     return pace_caption(segments_of(scene_.film).at(segment), picture.periods, scene_.drive, scene_.film.rate,
-                        source_.clock());
+                        source_.clock(), scene_.film.wording);
 }
 
 // The frame of the film's first picture, from which start heights are counted. A film that shows only a part

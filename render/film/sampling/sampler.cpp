@@ -188,26 +188,30 @@ double rounded_up(double playback) {
     return std::ceil(playback / digit - 1e-9) * digit;
 }
 
-std::string pace_words(const FilmSegment& segment, const Drive& drive, double film_rate) {
+std::string pace_words(const FilmSegment& segment, const Drive& drive, double film_rate, const Wording& say) {
     if (segment.kind == FilmSegment::Kind::motion) {
-        if (segment.playback == 1) return "real time";
-        if (segment.playback > 1) return fmt::format("time lapse, {:.4g}× speed", segment.playback);
-        return fmt::format("slow motion, {} speed", speed_words(segment.playback));
+        if (segment.playback == 1) return say(Word::real_time);
+        if (segment.playback > 1) return say(Word::time_lapse, {fmt::format("{:.4g}", segment.playback)});
+        return say(Word::slow_motion, {speed_words(segment.playback)});
     }
     // With pictures on the way from one locked moment to the next, there are more frames than moments.
-    const std::string often =
-        fmt::format("1 {} {}", segment.between > 0 ? "moment" : "frame",
-                    segment.every == 1 ? "a period" : fmt::format("every {} periods", segment.every));
-    if (drive.changes()) return fmt::format("{} at phase {:.3g}", often, segment.phase);
-    return fmt::format("{} at phase {:.3g} (plays {:.4g}×)", often, segment.phase,
-                       film_rate * segment.every / ((segment.between + 1) * drive.frequency));
+    const bool between = segment.between > 0;
+    const std::string phase = fmt::format("{:.3g}", segment.phase);
+    const std::string often = segment.every == 1
+                                  ? say(between ? Word::moment_a_period : Word::frame_a_period, {phase})
+                                  : say(between ? Word::moment_every : Word::frame_every,
+                                        {std::to_string(segment.every), phase});
+    if (drive.changes()) return often;
+    const std::string pace = fmt::format(
+        "{:.4g}", film_rate * segment.every / ((segment.between + 1) * drive.frequency));
+    return fmt::format("{} ({})", often, say(Word::plays, {pace}));
 }
 
 // Words for what each picture shows when it is not one moment.
-std::string span_words(const FilmSegment& segment) {
-    if (segment.average == 1) return ", mean of a period";
-    if (segment.average > 1) return fmt::format(", mean of {} periods", segment.average);
-    if (segment.exposure > 0) return fmt::format(", exposed for {:.3g} s", segment.exposure);
+std::string span_words(const FilmSegment& segment, const Wording& say) {
+    if (segment.average == 1) return ", " + say(Word::mean_of_a_period);
+    if (segment.average > 1) return ", " + say(Word::mean_of_periods, {std::to_string(segment.average)});
+    if (segment.exposure > 0) return ", " + say(Word::exposed, {fmt::format("{:.3g} s", segment.exposure)});
     return "";
 }
 
@@ -217,8 +221,9 @@ std::vector<FilmSegment> segments_of(const Film& film) {
     return film.segments.empty() ? std::vector<FilmSegment>(1) : film.segments;
 }
 
-std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate) {
-    return pace_words(segment, drive, film_rate) + span_words(segment);
+std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate,
+                             const Wording& say) {
+    return pace_words(segment, drive, film_rate, say) + span_words(segment, say);
 }
 
 FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock) {
@@ -229,8 +234,8 @@ FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock) {
 }
 
 std::string pace_caption(const FilmSegment& segment, int periods, const Drive& drive, double film_rate,
-                         const Clock& clock) {
-    return playback_caption(played(spanning(segment, periods), film_rate, clock), drive, film_rate);
+                         const Clock& clock, const Wording& say) {
+    return playback_caption(played(spanning(segment, periods), film_rate, clock), drive, film_rate, say);
 }
 
 std::vector<std::string> pace_warnings(const FilmedScene& scene, const Clock& clock) {

@@ -22,14 +22,15 @@ std::vector<FilmSegment> segments_of(const Film& film);
 
 // What a frame's caption says about time: "real time", "slow motion, 1/10 speed" or "1 frame a period at
 // phase 0.25 (plays 1.5×)". UTF-8.
-std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate);
+std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate,
+                             const Wording& say = {});
 
 // The segment as it is played: if it asks for frames that lie closer than the steps, it gets one frame a
 // step.
 FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock);
 // The caption of a picture that was taken by a segment while the bed repeated itself after `periods` periods.
 std::string pace_caption(const FilmSegment& segment, int periods, const Drive& drive, double film_rate,
-                         const Clock& clock);
+                         const Clock& clock, const Wording& say = {});
 // A warning for each segment that, played one frame a step, is faster than its playback says.
 std::vector<std::string> pace_warnings(const FilmedScene& scene, const Clock& clock);
 

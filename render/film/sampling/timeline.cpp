@@ -154,19 +154,23 @@ std::optional<FilmSegment> pacing_of(const std::vector<State>& moments, const Dr
     return segment;
 }
 
-std::string pacing_caption(const std::vector<State>& moments, const Drive& drive, double rate) {
+std::string pacing_caption(const std::vector<State>& moments, const Drive& drive, double rate,
+                           const Wording& say) {
     if (moments.size() < 2) return {};
-    if (const auto segment = pacing_of(moments, drive, rate)) return playback_caption(*segment, drive, rate);
+    if (const auto segment = pacing_of(moments, drive, rate)) return playback_caption(*segment, drive, rate, say);
     const double interval = mean_interval(moments);
     if (interval <= 0) return {};
-    if (drive.present && same_phase(moments, drive))
-        return fmt::format("on average 1 frame every {:.3g} periods, at phase {:.3g} (plays {:.3g}×)",
-                           drive.changes() ? mean_periods(moments) : interval * drive.frequency,
-                           moments.front().phase, interval * rate);
+    if (drive.present && same_phase(moments, drive)) {
+        const double periods = drive.changes() ? mean_periods(moments) : interval * drive.frequency;
+        const std::string often = say(Word::frame_every, {fmt::format("{:.3g}", periods),
+                                                          fmt::format("{:.3g}", moments.front().phase)});
+        return fmt::format("{} ({})", say(Word::on_average, {often}),
+                           say(Word::plays, {fmt::format("{:.3g}", interval * rate)}));
+    }
     FilmSegment segment;
     segment.playback = std::round(interval * rate * 100) / 100 > 0 ? std::round(interval * rate * 100) / 100
                                                                    : interval * rate;
-    return "on average " + playback_caption(segment, drive, rate);
+    return say(Word::on_average, {playback_caption(segment, drive, rate, say)});
 }
 
 std::optional<std::string> pacing_warning(const std::vector<State>& moments, const Drive& drive) {

@@ -42,7 +42,8 @@ std::optional<FilmSegment> pacing_of(const std::vector<State>& moments, const Dr
 
 // What the caption says about the pace of these frames; if they do not come evenly, it gives the mean. Empty
 // for fewer than two frames.
-std::string pacing_caption(const std::vector<State>& moments, const Drive& drive, double rate);
+std::string pacing_caption(const std::vector<State>& moments, const Drive& drive, double rate,
+                           const Wording& say = {});
 
 // A warning for frames that are too few for the drive, which then seems to move at another frequency. None if
 // there are enough frames, or if all are at one phase.

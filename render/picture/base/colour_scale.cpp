@@ -15,26 +15,26 @@ namespace grainreel {
 
 namespace {
 
-std::string quantity_words(const GrainColouring& colouring) {
+std::string quantity_words(const GrainColouring& colouring, const Wording& wording) {
     switch (colouring.by) {
         case GrainValue::speed:
-            return "speed";
+            return wording(Word::speed);
         case GrainValue::vertical_velocity:
-            return "upward velocity";
+            return wording(Word::upward_velocity);
         case GrainValue::start_height:
-            return "height at the start";
+            return wording(Word::start_height);
         case GrainValue::displacement:
-            return "displacement in a period";
+            return wording(Word::displacement);
         case GrainValue::rise:
-            return "rise in a period";
+            return wording(Word::rise);
         case GrainValue::spin:
-            return "spin";
+            return wording(Word::spin);
         case GrainValue::kinetic_energy:
-            return "kinetic energy";
+            return wording(Word::kinetic_energy);
         case GrainValue::coordination:
-            return "contacts of a grain";
+            return wording(Word::contacts);
         case GrainValue::contact_force:
-            return "normal forces on a grain";
+            return wording(Word::normal_forces);
         case GrainValue::own:
             return colouring.title;
         case GrainValue::species:
@@ -84,8 +84,8 @@ std::string clipped_words(const GrainColouring& colouring, const ClippedCount& c
                                            {in_unit(colouring.range[0], size, colouring.unit),
                                             banded ? "" : in_unit(colouring.range[1], size, colouring.unit)});
     if (parts.empty()) return "";
-    return fmt::format("colours by {}: {}, where the bar ends (film.colour.range)", quantity_words(colouring),
-                       parts);
+    return fmt::format("colours by {}: {}, where the bar ends (film.colour.range)",
+                       quantity_words(colouring, {}), parts);
 }
 
 // The words leave out triangles below the range: hardly anything touches those.
@@ -98,21 +98,21 @@ std::string clipped_words(const FilmWalls& walls, const ClippedCount& count) {
                        word_of(walls.colour, wall_colour_words), parts);
 }
 
-ColourScale::ColourScale(const GrainColouring& colouring)
+ColourScale::ColourScale(const GrainColouring& colouring, const Wording& wording)
     : map_(colouring.map),
       range_(colouring.range),
       bands_(bands_of(colouring)),
       signed_(is_signed(colouring.by) || colouring.by == GrainValue::own),
       logarithmic_(colouring.logarithmic),
       unit_size_(grainreel::unit_size(colouring.unit, dimension_of(colouring.by))),
-      title_(with_unit(quantity_words(colouring), colouring.unit)) {}
+      title_(with_unit(quantity_words(colouring, wording), colouring.unit)) {}
 
-ColourScale::ColourScale(const FilmWalls& walls)
+ColourScale::ColourScale(const FilmWalls& walls, const Wording& wording)
     : map_(ColourMap::bilbao), range_(walls.range), logarithmic_(walls.logarithmic()) {
     const WallUnit unit = unit_of(walls);
     unit_size_ = unit.size;
     const bool wear = walls.colour == FilmWalls::Colour::wear;
-    title_ = with_unit(wear ? "wear of walls" : "pressure on walls", unit.name);
+    title_ = with_unit(wording(wear ? Word::wear : Word::pressure), unit.name);
 }
 
 double ColourScale::share_of(double value) const {

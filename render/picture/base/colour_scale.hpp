@@ -38,8 +38,9 @@ std::string clipped_words(const FilmWalls& walls, const ClippedCount& count);
 
 class ColourScale {
   public:
-    explicit ColourScale(const GrainColouring& colouring);
-    explicit ColourScale(const FilmWalls& walls);  // for walls that are coloured by a quantity
+    explicit ColourScale(const GrainColouring& colouring, const Wording& wording = {});
+    // For walls that are coloured by a quantity.
+    explicit ColourScale(const FilmWalls& walls, const Wording& wording = {});
 
     // The sRGB colour of a value (SI). Beyond the range it is the colour of the nearer end.
     Colour at(double value) const { return at_share(share_of(value)); }

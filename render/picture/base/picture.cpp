@@ -16,13 +16,20 @@ void divide_by_alpha(Picture& picture, const Rectangle& port) {
     }
 }
 
+double least_letters(const Film& film) {
+    constexpr double digits = 0.729;  // height of a digit of DejaVu Sans, as a share of its letters' size
+    constexpr double smallest = 10, legible = 11 / digits, whole_size = 480;
+    return std::clamp(legible * std::min(film.width, film.height) / whole_size, smallest, legible);
+}
+
 // Sizes go by the picture's height, but in very narrow pictures by its width.
 TypeScale type_scale(const Film& film, double shrink) {
-    const double height = film.height, width = film.width;
+    const double height = film.height, width = film.width, least = least_letters(film);
     TypeScale type{};
-    type.main = std::max(10.0, shrink * std::min(0.0265 * height, 0.05 * width));
-    type.minor = std::max(10.0, shrink * std::min(0.0195 * height, 0.037 * width));
-    type.title = std::max(11.0, shrink * std::min((width < height ? 0.029 : 0.034) * height, 0.055 * width));
+    type.minor = std::max(least, shrink * std::min(0.0225 * height, 0.04 * width));
+    type.main = std::max(1.06 * least, shrink * std::min(0.028 * height, 0.05 * width));
+    type.title =
+        std::max(1.18 * least, shrink * std::min((width < height ? 0.03 : 0.036) * height, 0.055 * width));
     type.gap = 0.6 * type.main;
     type.margin = std::max(4.0, 0.03 * std::min(width, height));
     return type;

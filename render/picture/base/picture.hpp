@@ -43,9 +43,12 @@ void divide_by_alpha(Picture& picture, const Rectangle& port);
 struct TypeScale {
     double main, minor, title, gap, margin;
 };
-// Main text is at least 2.5 % and minor text 1.8 % of the picture's height. Both are multiplied by `shrink`,
-// but stay at least 10 pixels.
+// Main text is 2.8 % and minor text 2.25 % of the picture's height, less in narrow pictures. Both are
+// multiplied by `shrink`, but digits stay 11 pixels high where the picture is 480 pixels wide and high or
+// larger. In smaller pictures they shrink with it, to letters of 10 pixels.
 TypeScale type_scale(const Film& film, double shrink = 1);
+// Pixels: the least size of letters.
+double least_letters(const Film& film);
 
 // Which parts of the picture are gutters for words, and which part shows the container.
 struct PictureLayout {
@@ -54,6 +57,7 @@ struct PictureLayout {
     Rectangle first;                    // left or top: title, legend, scale
     Rectangle second;                   // right or bottom: time, drive, playback
     Rectangle port;                     // the container
+    Rectangle caption;                  // the band below all of them, for film.caption; empty without captions
     bool plates = false;                // the port is the whole picture, and words lie over it
     std::vector<std::string> left_out;  // words that there is no room for
 };

@@ -254,20 +254,22 @@ class MarksLegend {
 
 constexpr std::size_t most_named = 12;  // grains named in the legend
 
-std::string words_of_rings(const FilmShows& look) {
+std::string words_of_rings(const FilmShows& look, const Wording& say) {
     std::string ringed;
     if (!look.highlighted.empty())
         ringed = look.highlighted.size() > most_named
-                     ? fmt::format("{} grains", look.highlighted.size())
-                     : fmt::format("{} {}", look.highlighted.size() > 1 ? "grains" : "grain",
-                                   fmt::join(look.highlighted, ", "));
+                     ? say(Word::number_of_grains, {std::to_string(look.highlighted.size())})
+                     : say(look.highlighted.size() > 1 ? Word::grains : Word::grain,
+                           {fmt::format("{}", fmt::join(look.highlighted, ", "))});
     if (look.highlight_if.wanted()) ringed += (ringed.empty() ? "" : ", ") + look.highlight_if.text;
     return ringed;
 }
 
-// " over a period", or over as many as the film says.
-std::string over_periods(const Film& film) {
-    return film.periods > 1 ? fmt::format(" over {} periods", film.periods) : " over a period";
+// A mean's name with the words "over a period", or over as many as the film says.
+std::string over_periods(const std::string& name, bool period, const Film& film) {
+    if (!period) return name;
+    return film.periods > 1 ? film.wording(Word::over_periods, {name, std::to_string(film.periods)})
+                            : film.wording(Word::over_a_period, {name});
 }
 
 }  // namespace
@@ -277,27 +279,26 @@ TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scal
     const FilmShows& look = scene.film.shows;
     if (!scene.film.word_kinds.legend) return {};
     const Palette& palette = writer.palette;
+    const Wording& say = scene.film.wording;
     MarksLegend legend(writer, x, y, wrap);
     if (look.arrows.across > 0)
         legend.arrow(arrow_scale(scene) * scale, Dimension::speed, palette.ink, legend.pen(),
-                     "mean velocity" + (look.arrows.period ? over_periods(scene.film) : ""));
+                     over_periods(say(Word::mean_velocity), look.arrows.period, scene.film));
     if (look.streamlines.across > 0)
         legend.line(palette.ink, widest_streamline(scene.film.height),
-                    fmt::format("streamlines{}, this wide from {} on",
-                                look.streamlines.period ? over_periods(scene.film) : "",
-                                quantity_text(look.streamlines.speed, Dimension::speed)));
+                    say(Word::this_wide,
+                        {over_periods(say(Word::streamlines), look.streamlines.period, scene.film),
+                         quantity_text(look.streamlines.speed, Dimension::speed)}));
     if (look.wall_forces.wanted)
         legend.arrow(wall_force_scale(scene) * scale, Dimension::force, palette.wall_force,
-                     1.7 * legend.pen(), "mean force on a wall");
+                     1.7 * legend.pen(), say(Word::force_on_wall));
     if (look.trails.wanted())
-        legend.line(
-            palette.accent, 1.5 * legend.pen(),
-            fmt::format("paths of the last {}", quantity_text(look.trails.duration, Dimension::time)));
+        legend.line(palette.accent, 1.5 * legend.pen(),
+                    say(Word::paths, {quantity_text(look.trails.duration, Dimension::time)}));
     if (look.force_chains)
-        legend.line(
-            palette.force, widest_line(scene.film.height),
-            fmt::format("contact force, {} or more", quantity_text(widest_force(scene), Dimension::force)));
-    if (const std::string ringed = words_of_rings(look); !ringed.empty()) legend.ring(palette.accent, ringed);
+        legend.line(palette.force, widest_line(scene.film.height),
+                    say(Word::contact_force, {quantity_text(widest_force(scene), Dimension::force)}));
+    if (const std::string ringed = words_of_rings(look, say); !ringed.empty()) legend.ring(palette.accent, ringed);
     return {wrap, legend.height()};
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/measure/columns.hpp"
+#include "render/picture/words/caption_band.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -21,9 +22,18 @@ constexpr int pace_lines = 4;
 // the longest lines.
 TextSize common_drive(const Writer& writer, const FilmedScene& scene, const Common& common,
                       const State* frame, double x, double y) {
-    if (!scene.film.word_kinds.drive) return {};
+    const WordKinds& kinds = scene.film.word_kinds;
     State shown = frame ? *frame : State();
     if (!scene.drive.present) shown.cycles = scene.drive.ramp;  // drives may grow at different rates
+    TextSize size;
+    if (kinds.shaking) {
+        const ShakingParts parts{common.frequency, common.g_level};
+        const std::string numbers = kinds.drive ? ""
+                                    : frame     ? shaking_text(scene, shown, parts)
+                                                : longest_shaking_text(scene, parts);
+        size = shaking_block(writer, scene, numbers, nullptr, x, y);
+    }
+    if (!kinds.drive) return size;
     std::vector<std::string> lines = frame ? drive_lines(scene, shown) : longest_drive_lines(scene);
     const bool levels = scene.gravity.norm() > 0;
     const auto keep = [&](std::size_t from_end, bool wanted) {
@@ -34,7 +44,6 @@ TextSize common_drive(const Writer& writer, const FilmedScene& scene, const Comm
         if (levels) keep(2, common.g_level);
         keep(1, common.amplitude);
     }
-    TextSize size;
     for (const std::string& line : lines) {
         writer.write_below(size, x, y, line, writer.main(), writer.palette.ink);
     }
@@ -44,7 +53,7 @@ TextSize common_drive(const Writer& writer, const FilmedScene& scene, const Comm
 WordBlock dial(const Writer& measure, const Drive& drive) {
     const double radius = 2.2 * measure.type.main;
     return {dial_block(measure, drive, nullptr, radius, 0, 0), true,
-            [drive, radius](const Writer& on, double x, double y, const State& frame, const std::string&) {
+            [drive, radius](const Writer& on, double x, double y, const Shot& frame, const std::string&) {
                 dial_block(on, drive, nullptr, radius, x, y);
                 dial_block(on, drive, &frame, radius, x, y);
             }};
@@ -70,42 +79,41 @@ WordBlock playback_block(const Writer& measure, const Film& film) {
     return {
         {wrap, 3 * line.height},
         true,
-        [film, wrap](const Writer& on, double x, double y, const State& frame, const std::string& playback) {
+        [film, wrap](const Writer& on, double x, double y, const Shot& frame, const std::string& playback) {
             on.write(x, y, playback_text(film, frame, playback), on.minor(), on.palette.faint_ink, wrap, 3);
         }};
 }
 
 // The captions that all scenes share, in a row of their own.
 WordBlock captions_block(const Writer& measure, const Film& film, double width) {
-    constexpr int lines = 3;
     const double inner = width - 2 * measure.type.margin;
-    double height = 0;
-    for (const FilmCaption& caption : film.captions)
-        height = std::max(
-            height,
-            write_in_middle(measure, caption.text, measure.main(), measure.palette.ink, inner, lines).height);
-    return {{inner, height},
+    const CaptionPlan plan = plan_captions(film, inner);
+    return {{inner, static_cast<double>(plan.band())},
             true,
-            [captions = film.captions, inner](const Writer& on, double x, double y, const State& frame,
-                                              const std::string&) {
-                for (const FilmCaption& caption : captions)
-                    if (shows_caption(caption, frame.time))
-                        on.write(x, y, caption.text, {on.main().size, on.main().bold, true}, on.palette.ink,
-                                 inner, lines);
+            [film, plan, inner](const Writer& on, double x, double y, const Shot& frame, const std::string&) {
+                cairo_save(on.on);
+                cairo_translate(on.on, x, y);
+                draw_caption(on, plan, caption_at(film, frame), inner);
+                cairo_restore(on.on);
             }};
 }
 
 }  // namespace
 
 std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
-                                     const Common& common, double scale, double width) {
+                                     const Common& common, double scale, const Film& whole) {
+    const double width = whole.width;
     FilmedScene scene = panels.front().scene;
     scene.drive.present = common.clock;
     const WordKinds& kinds = scene.film.word_kinds;
     std::vector<WordBlock> blocks;
-    if (common.captions) blocks.push_back(captions_block(measure, scene.film, width));
+    if (common.captions) {
+        Film film = scene.film;
+        film.width = whole.width, film.height = whole.height;
+        blocks.push_back(captions_block(measure, film, width));
+    }
     blocks.push_back({clock_block(measure, scene, widest_frame(), 0, 0), true,
-                      [scene](const Writer& on, double x, double y, const State& frame, const std::string&) {
+                      [scene](const Writer& on, double x, double y, const Shot& frame, const std::string&) {
                           clock_block(on, scene, frame, x, y);
                       }});
     if (common.clock && kinds.dial) blocks.push_back(dial(measure, scene.drive));
@@ -113,26 +121,26 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
         blocks.push_back(
             {common_drive(measure, scene, common, nullptr, 0, 0),
              scene.drive.changes() || drive_lines_change(scene.drive),
-             [scene, common](const Writer& on, double x, double y, const State& frame, const std::string&) {
+             [scene, common](const Writer& on, double x, double y, const Shot& frame, const std::string&) {
                  common_drive(on, scene, common, &frame, x, y);
              }});
     }
     if (common.exaggerated && scene.film.exaggerate != 1) {
         blocks.push_back({exaggeration_block(measure, scene.film, 0, 0), false,
-                          [film = scene.film](const Writer& on, double x, double y, const State&,
+                          [film = scene.film](const Writer& on, double x, double y, const Shot&,
                                               const std::string&) { exaggeration_block(on, film, x, y); }});
     }
     if (common.playback && kinds.playback) blocks.push_back(playback_block(measure, scene.film));
     if (common.species) {
         blocks.push_back({legend_block(measure, scene, 0, 0, 0), false,
-                          [scene](const Writer& on, double x, double y, const State&, const std::string&) {
+                          [scene](const Writer& on, double x, double y, const Shot&, const std::string&) {
                               legend_block(on, scene, x, y, 0);
                           }});
     }
     if (common.colours && has_colour_bar(scene.film)) {
         const double wide = common_colour_bar * width;
         blocks.push_back({colour_bar_block(measure, scene, 0, 0, wide), false,
-                          [scene, wide](const Writer& on, double x, double y, const State&,
+                          [scene, wide](const Writer& on, double x, double y, const Shot&,
                                         const std::string&) { colour_bar_block(on, scene, x, y, wide); }});
     }
     const double wrap = std::max(common_marks * width, 15 * measure.type.minor);
@@ -141,7 +149,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
     if (const TextSize size = marks_block(measure, marked, pixels, 0, 0, wrap); size.height > 0) {
         blocks.push_back(
             {size, false,
-             [marked, pixels, wrap](const Writer& on, double x, double y, const State&, const std::string&) {
+             [marked, pixels, wrap](const Writer& on, double x, double y, const Shot&, const std::string&) {
                  marks_block(on, marked, pixels, x, y, wrap);
              }});
     }
@@ -150,7 +158,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
         const double longest = longest_bar * width;
         blocks.push_back({{longest, scale_block(measure, scale, 0, 0, longest).height},
                           false,
-                          [scale, longest](const Writer& on, double x, double y, const State&,
+                          [scale, longest](const Writer& on, double x, double y, const Shot&,
                                            const std::string&) { scale_block(on, scale, x, y, longest); }});
     }
     std::erase_if(blocks, [](const WordBlock& block) { return block.size.height <= 0; });
@@ -185,9 +193,22 @@ double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width)
 double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width) {
     double height = 0;
     for (const Panel& panel : panels)
-        for (const std::string& note : longest_notes(panel.scene))
-            height = std::max(height, note_block(measure, note, 0, 0, width, note_lines(panel.scene)).height);
+        for (const std::string& note : longest_panel_notes(panel.scene))
+            height = std::max(height, note_block(measure, note, 0, 0, width, panel_note_lines).height);
     return height;
+}
+
+std::string panel_note(const FilmedScene& scene, const Shot& frame) {
+    return joined(note_text(scene, frame), caption_at(scene.film, frame));
+}
+
+std::vector<std::string> longest_panel_notes(const FilmedScene& scene) {
+    const std::string note = longest_note(scene);
+    std::vector<std::string> notes;
+    if (!note.empty()) notes.push_back(note);
+    if (scene.film.word_kinds.captions)
+        for (const FilmCaption& caption : scene.film.captions) notes.push_back(joined(note, longest_caption(caption)));
+    return notes;
 }
 
 double pace_height(const Writer& measure, const std::vector<Panel>& panels, const Common& common,

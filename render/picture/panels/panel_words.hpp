@@ -17,7 +17,7 @@ namespace grainreel {
 
 struct WordBlock {
     using Draw =
-        std::function<void(const Writer&, double x, double y, const State&, const std::string& playback)>;
+        std::function<void(const Writer&, double x, double y, const Shot&, const std::string& playback)>;
     TextSize size;
     bool changes = false;
     Draw draw;
@@ -26,12 +26,18 @@ struct WordBlock {
 
 // The blocks that hold for all panels: captions (film.caption), clock, dial, drive, exaggeration, speed of
 // playback, legend, colour bar, what marks mean, and scale bar. scale: pixels a metre; 0 where panels have
-// scales of their own.
+// scales of their own. whole: the film of the whole picture.
 std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Panel>& panels,
-                                     const Common& common, double scale, double width);
+                                     const Common& common, double scale, const Film& whole);
 
 // Puts blocks in rows across the width. Returns the height that they take with their margins.
 double flow(std::vector<WordBlock>& blocks, const TypeScale& type, double width);
+
+// The words under one panel that change with the frames: its note, and the caption that is shown.
+std::string panel_note(const FilmedScene& scene, const Shot& frame);
+// Texts about as long as these get.
+std::vector<std::string> longest_panel_notes(const FilmedScene& scene);
+constexpr int panel_note_lines = 6;  // lines that each line of them may take
 
 // The height of the notes under panels of this width: words that change with the frames. 0 without notes.
 double notes_height(const Writer& measure, const std::vector<Panel>& panels, double width);

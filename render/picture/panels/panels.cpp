@@ -51,12 +51,13 @@ std::vector<std::string> drive_captions(const std::vector<FilmedScene>& scenes) 
     }
     std::vector<std::string> captions;
     for (const FilmedScene& scene : scenes) {
+        const Wording& say = scene.film.wording;
         std::vector<std::string> parts;
-        if (frequency && scene.drive.changes()) parts.push_back("drive that changes, at first");
+        if (frequency && scene.drive.changes()) parts.push_back(say(Word::changing_drive));
         if (frequency) parts.push_back("f = " + frequency_text(scene.drive.frequency));
         if (level) parts.push_back(fmt::format("Γ = {:.3g}", g_level(scene)));
         if (amplitude && !level && !frequency) parts.push_back("a = " + length_text(scene.drive.amplitude));
-        captions.push_back(scene.drive.present ? fmt::format("{}", fmt::join(parts, ", ")) : "no vibration");
+        captions.push_back(scene.drive.present ? fmt::format("{}", fmt::join(parts, ", ")) : say(Word::no_vibration));
     }
     return captions;
 }

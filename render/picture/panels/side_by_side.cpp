@@ -66,7 +66,7 @@ PanelLayout layout_of(const std::vector<Panel>& panels, const Film& film) {
     const Common common = common_of(panels);
     WordHeights words;
     words.top = title_height(measure, film);
-    std::vector<WordBlock> blocks = common_blocks(measure, panels, common, 1, film.width);
+    std::vector<WordBlock> blocks = common_blocks(measure, panels, common, 1, film);
     words.bottom = flow(blocks, type, film.width);
     // Words wrap at the width of the panels, and the panels depend on the height of the words. So this is
     // repeated until panels become no narrower. scales: whether each panel has a scale of its own.
@@ -140,7 +140,7 @@ SideBySide::Impl::Impl(const std::vector<Panel>& panels, const Film& film, int r
         drawn[i].scene = scenes[i];
         drawn[i].scene.film.captions = panels[i].scene.film.captions;
     }
-    blocks = common_blocks(measure, drawn, common, layout.scale, film.width);
+    blocks = common_blocks(measure, drawn, common, layout.scale, film);
     flow(blocks, type, film.width);
     write_still_words(panels, film);
 }
@@ -168,7 +168,7 @@ void SideBySide::Impl::write_still_words(const std::vector<Panel>& panels, const
     });
     renew(layout.bottom, [&](const Writer& on) {
         for (const WordBlock& block : blocks)
-            if (!block.changes) block.draw(on, block.x, block.y, State(), "");
+            if (!block.changes) block.draw(on, block.x, block.y, Shot(), "");
     });
     for (std::size_t i = 0; i < panels.size(); ++i) {
         const PanelLayout::Place& place = layout.places[i];
@@ -198,19 +198,19 @@ void SideBySide::Impl::write_changing_words(const Shot& frame, const std::string
 void SideBySide::Impl::write_note(std::size_t panel, const Shot& frame) {
     const Rectangle& part = layout.places[panel].note;
     notes.resize(layout.places.size());
-    std::string note = note_text(scenes[panel], frame);
+    std::string note = panel_note(scenes[panel], frame);
     if (part.height <= 0 || note == notes[panel]) return;
     const Writer measure{nullptr, type, palette};
     // Notes begin where the longest note would begin if centred, so that words do not move with their values.
     const auto width_of = [&](const std::string& text) {
-        return note_block(measure, text, 0, 0, part.width - 2, note_lines(scenes[panel])).width;
+        return note_block(measure, text, 0, 0, part.width - 2, panel_note_lines).width;
     };
     double widest = width_of(note);
-    for (const std::string& longest : longest_notes(scenes[panel]))
+    for (const std::string& longest : longest_panel_notes(scenes[panel]))
         widest = std::max(widest, width_of(longest));
     const double x = std::max(1.0, 0.5 * (part.width - widest));
     renew(part,
-          [&](const Writer& on) { note_block(on, note, x, 0, part.width - 2, note_lines(scenes[panel])); });
+          [&](const Writer& on) { note_block(on, note, x, 0, part.width - 2, panel_note_lines); });
     notes[panel] = std::move(note);
 }
 

@@ -55,6 +55,7 @@ PlotRange plot_frame(const FilmedScene& scene, const FilmPlot& plot) {
     const ColumnAxis axis = axis_of_column(scene, plot.column);
     frame.from_zero = axis.from_zero;
     frame.expected = axis.expected;
+    frame.time_name = scene.film.wording(Word::time);
     return frame;
 }
 
@@ -90,9 +91,10 @@ void Plot::forget() {
     rows_ = 0;
     period_.clear();
     any_ = false;
-    gap_ = true;
+    unit_.reset();
     limits_ = frame_.range.value_or(std::array<double, 2>{0, 1});
-    slices_.assign(static_cast<std::size_t>(std::max(1.0, right_ - left_)) + 1, {});
+    const std::vector<Slice> none(static_cast<std::size_t>(std::max(1.0, right_ - left_)) + 1);
+    line_ = rows_behind_ = {none, true};
 }
 
 double Plot::x_of(double time) const {
@@ -120,9 +122,15 @@ bool Plot::take(const Shot& frame) {
     std::vector<double> values = column(frame_.column);
     if (frame_.smooth) {
         const std::vector<double> cycles = column("cycles");
-        for (std::size_t i = 0; i < times.size(); ++i) values[i] = mean_of_period(cycles[i], values[i]);
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            add(rows_behind_, times[i], values[i]);
+            values[i] = mean_of_period(cycles[i], values[i]);
+        }
     }
-    for (std::size_t i = 0; i < times.size(); ++i) add(times[i], values[i]);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        add(line_, times[i], values[i]);
+        if (!line_.gap) last_ = {times[i], values[i]};
+    }
     rows_ = frame.measure_rows;
     return true;
 }
@@ -138,16 +146,15 @@ double Plot::mean_of_period(double cycles, double value) {
     return cycles >= 1 - hair && count > 0 ? sum / count : kNoValue;
 }
 
-void Plot::add(double time, double value) {
-    const bool after_gap = gap_;
-    gap_ = !std::isfinite(value);
-    if (gap_) return;
+void Plot::add(Curve& curve, double time, double value) {
+    const bool after_gap = curve.gap;
+    curve.gap = !std::isfinite(value);
+    if (curve.gap) return;
     if (!frame_.range) widen(value);
-    last_ = {time, value};
     any_ = true;
     const double at =
-        std::clamp(std::floor(x_of(time) - left_), 0.0, static_cast<double>(slices_.size()) - 1);
-    Slice& slice = slices_[static_cast<std::size_t>(at)];
+        std::clamp(std::floor(x_of(time) - left_), 0.0, static_cast<double>(curve.slices.size()) - 1);
+    Slice& slice = curve.slices[static_cast<std::size_t>(at)];
     if (slice.count == 0) slice.after_gap = after_gap;
     slice.add(value);
 }
@@ -164,6 +171,16 @@ void Plot::widen(double value) {
                any_ ? std::max(limits_[1], wide[1]) : wide[1]};
 }
 
+// The unit is chosen when the first values are there, by those that the scene makes likely, and stays. Only
+// numbers that would be too long for the axis, or all zeros, change it.
+const std::string& Plot::unit(double largest) {
+    constexpr double longest = 1e4, shortest = 0.02;
+    const bool stays = unit_ && (largest == 0 || (largest < longest * unit_size(*unit_, frame_.dimension) &&
+                                                  largest > shortest * unit_size(*unit_, frame_.dimension)));
+    if (!stays) unit_ = fitting_unit(largest, frame_.dimension);
+    return *unit_;
+}
+
 void Plot::draw_axes() {
     const CairoContext on(cairo_create(axes_.get()));
     fill_surface(on.get(), palette_.background, 0);
@@ -171,9 +188,10 @@ void Plot::draw_axes() {
     const double tick = 0.3 * type_.minor;
     const auto& [low, high] = span();
     const double largest = std::max({std::abs(low), std::abs(high), frame_.expected});
-    const std::string unit = fitting_unit(largest, frame_.dimension);
-    const double size = unit_size(unit, frame_.dimension);
-    const std::string title = unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, unit);
+    const std::string& shown_unit = unit(largest);
+    const double size = unit_size(shown_unit, frame_.dimension);
+    const std::string title =
+        shown_unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, shown_unit);
     draw_title(on.get(), title, frame_.width, frame_.height, type_, palette_.ink);
 
     // If all values are 0, no unit fits them, and the only tick is at 0.
@@ -192,24 +210,24 @@ void Plot::draw_axes() {
         draw_text(on.get(), x - 0.5 * words.width, bottom_ + tick, at.text, minor, palette_.faint_ink);
         below = words.height;
     }
-    const std::string name = short_run() ? "time (ms)" : "time (s)";
+    const std::string name = fmt::format("{} ({})", frame_.time_name, short_run() ? "ms" : "s");
     draw_text(on.get(), right_ - measure_text(name, minor).width, bottom_ + tick + below, name, minor,
               palette_.faint_ink);
     drawn_ = span();
 }
 
-void Plot::draw_curve(cairo_t* on) const {
+void Plot::draw_curve(cairo_t* on, const Curve& curve, double width, double strength) const {
     cairo_new_path(on);
-    for (std::size_t i = 0; i < slices_.size(); ++i) {
-        const Slice& slice = slices_[i];
+    for (std::size_t i = 0; i < curve.slices.size(); ++i) {
+        const Slice& slice = curve.slices[i];
         if (slice.count == 0) continue;
         const double x = left_ + static_cast<double>(i) + 0.5;
         if (slice.after_gap) cairo_move_to(on, x, y_of(slice.first));
         for (const double value : {slice.first, slice.low, slice.high, slice.last})
             cairo_line_to(on, x, y_of(value));
     }
-    set_colour(on, palette_.ink);
-    cairo_set_line_width(on, std::max(1.0, type_.main / 14));
+    set_colour(on, palette_.ink, strength);
+    cairo_set_line_width(on, width);
     cairo_set_line_join(on, CAIRO_LINE_JOIN_ROUND);
     cairo_stroke(on);
 }
@@ -220,8 +238,10 @@ void Plot::draw(cairo_t* on, int x, int y) {
     cairo_translate(on, x, y);
     cairo_set_source_surface(on, axes_.get(), 0, 0);
     cairo_paint(on);
-    draw_curve(on);
-    if (!gap_) {
+    const double pen = std::max(1.0, type_.main / 14);
+    if (frame_.smooth) draw_curve(on, rows_behind_, std::max(1.0, 0.5 * pen), 0.25);
+    draw_curve(on, line_, frame_.smooth ? 1.6 * pen : pen, 1);
+    if (!line_.gap) {
         set_colour(on, palette_.accent);
         cairo_new_path(on);
         cairo_arc(on, x_of(last_[0]), y_of(last_[1]), std::max(2.5, 0.18 * type_.main), 0,

@@ -46,9 +46,10 @@ struct PlotRange {
     Dimension dimension = Dimension::number;
     std::array<double, 2> time{0, 1};            // s, of the whole run
     std::optional<std::array<double, 2>> range;  // SI
-    bool smooth = false;        // means over the last period of the drive in place of the rows
+    bool smooth = false;        // the line is the mean over the last period; the rows lie faint behind it
     bool from_zero = false;     // the values' axis begins at 0
     double expected = 0;        // SI: a value that the values' unit must suit
+    std::string time_name = "time";
     int width = 0, height = 0;  // pixels
 };
 // The PlotRange of a plot of the scene's film, without its size.
@@ -79,6 +80,10 @@ class Plot final : public SidePlot {
         double first = 0, last = 0, low = 0, high = 0;
         void add(double value);
     };
+    struct Curve {
+        std::vector<Slice> slices;
+        bool gap = true;  // the last row has no value
+    };
     struct TimeTick {
         double time;  // s
         std::string text;
@@ -87,11 +92,13 @@ class Plot final : public SidePlot {
     bool short_run() const { return frame_.time[1] < 0.1; }  // time is shown in ms
     const std::array<double, 2>& span() const { return shown_ ? *shown_ : limits_; }
     void forget();
-    void add(double time, double value);
+    // Adds a value to a curve. The curve breaks where there is no value.
+    void add(Curve& curve, double time, double value);
     double mean_of_period(double cycles, double value);
     void widen(double value);
     void draw_axes();
-    void draw_curve(cairo_t* on) const;
+    void draw_curve(cairo_t* on, const Curve& curve, double width, double strength) const;
+    const std::string& unit(double largest);
 
     const PlotRange frame_;
     const TypeScale type_;
@@ -103,11 +110,11 @@ class Plot final : public SidePlot {
     std::size_t rows_ = 0;
     std::deque<std::array<double, 2>> period_;  // time (in periods) and value of the last period's rows
     bool any_ = false;
-    bool gap_ = true;                             // the last row has no value
+    std::optional<std::string> unit_;  // of the values, the same in all pictures
     std::array<double, 2> limits_{0, 1};          // SI, of the rows
     std::optional<std::array<double, 2>> shown_;  // limits that show() has set in place of limits_
-    std::array<double, 2> last_{0, 0};            // time and value
-    std::vector<Slice> slices_;
+    std::array<double, 2> last_{0, 0};            // time and value of the line's end
+    Curve line_, rows_behind_;                    // rows_behind_: empty unless the line is smooth
 };
 
 }  // namespace grainreel

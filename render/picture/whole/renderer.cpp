@@ -204,6 +204,7 @@ void Renderer::Impl::copy_words(Picture& into) const {
         if (ground) ground->tint({0, 0, words.width, words.height}, into);
     }
     if (layout.plates) {
+        copy(words, layout.caption, into);
         into.still = 0;
         return;
     }
@@ -214,6 +215,7 @@ void Renderer::Impl::copy_words(Picture& into) const {
     }
     copy(words, layout.first, into);
     copy(words, layout.second, into);
+    copy(words, layout.caption, into);
     into.still = may_stay ? overlay.still() : 0;
     into.moving = overlay.moving();
     into.moving.push_back(port);

@@ -110,6 +110,42 @@ TextSize scale_block(const Writer& writer, double scale, double x, double y, dou
     return {std::max(pixels, label.width), 1.3 * tick + label.height};
 }
 
+namespace {
+
+// Draws an arrow of half the length `reach` about (x, y) as the camera sees the direction. view: null: seen
+// along -x.
+void draw_direction(const Writer& writer, const Vec3& along, const View* view, double x, double y,
+                    double reach, bool both) {
+    const double across = view ? along.dot(view->right) : along.y(), up = view ? along.dot(view->up) : along.z();
+    const double away = view ? along.dot(view->forward) : -along.x();
+    set_colour(writer.on, both ? writer.palette.accent : writer.palette.ink);
+    if (std::hypot(across, up) < 0.2)
+        arrow_on_end(writer, x, y, both || away < 0);
+    else
+        arrow(writer, x, y, reach * across, -reach * up, both);
+}
+
+Word word_of_shaking(const Drive& drive) {
+    return drive.moves == Drive::Moves::floor ? Word::floor_vibrates : Word::vibration;
+}
+
+}  // namespace
+
+TextSize shaking_block(const Writer& writer, const FilmedScene& scene, const std::string& numbers,
+                       const View* view, double x, double y) {
+    const double reach = 0.75 * writer.type.main, indent = 1.5 * writer.type.main + 0.4 * writer.type.gap;
+    TextSize words;
+    writer.write_below(words, x + indent, y, scene.film.wording(word_of_shaking(scene.drive)), writer.main(),
+                       writer.palette.ink);
+    if (!numbers.empty())
+        writer.write_below(words, x + indent, y, numbers, writer.minor(), writer.palette.ink);
+    const TextSize size{indent + words.width, std::max(words.height, 2.2 * writer.type.main)};
+    if (writer.on)
+        draw_direction(writer, scene.drive.direction, view, x + 0.75 * writer.type.main, y + 0.5 * size.height,
+                       reach, true);
+    return size;
+}
+
 TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y) {
     const double reach = 0.75 * writer.type.main, row = 2.2 * writer.type.main,
                  indent = 1.5 * writer.type.main;
@@ -127,20 +163,17 @@ TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View
     };
     const auto direction = [&](const Vec3& along, bool both) {
         return [&, along, both](double at_x, double at_y) {
-            set_colour(writer.on, both ? writer.palette.accent : writer.palette.ink);
-            const double across = along.dot(view->right), up = along.dot(view->up);
-            if (std::hypot(across, up) < 0.2)
-                arrow_on_end(writer, at_x, at_y, both || along.dot(view->forward) < 0);
-            else
-                arrow(writer, at_x, at_y, reach * across, -reach * up, both);
+            draw_direction(writer, along, view, at_x, at_y, reach, both);
         };
     };
-    if (scene.gravity.norm() > 0) entry("gravity", direction(scene.gravity.normalized(), false));
+    const Wording& say = scene.film.wording;
+    if (scene.gravity.norm() > 0)
+        entry(say(Word::gravity), direction(scene.gravity.normalized(), false));
     if (!scene.drive.present) return size;
-    entry(scene.drive.moves == Drive::Moves::floor ? "floor vibrates" : "vibration",
-          direction(scene.drive.direction, true));
+    if (!scene.film.word_kinds.shaking)
+        entry(say(word_of_shaking(scene.drive)), direction(scene.drive.direction, true));
     if (has_lab_marks(scene))
-        entry("floor", [&](double at_x, double at_y) { lab_mark_sample(writer, at_x, at_y, reach); });
+        entry(say(Word::floor), [&](double at_x, double at_y) { lab_mark_sample(writer, at_x, at_y, reach); });
     return size;
 }
 
@@ -170,16 +203,23 @@ TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* 
     return {side, side + writer.type.gap};
 }
 
-TextSize drive_block(const Writer& writer, const FilmedScene& scene, const State* frame, double x, double y) {
+TextSize drive_block(const Writer& writer, const FilmedScene& scene, const State* frame, const View* view,
+                     double x, double y) {
     if (!scene.drive.present) return {};
     TextSize size;
     std::vector<std::string> lines;
-    if (scene.film.word_kinds.drive) lines = frame ? drive_lines(scene, *frame) : longest_drive_lines(scene);
+    const WordKinds& kinds = scene.film.word_kinds;
+    if (kinds.shaking) {
+        const std::string numbers =
+            kinds.drive ? "" : frame ? shaking_text(scene, *frame) : longest_shaking_text(scene);
+        size = shaking_block(writer, scene, numbers, view, x, y);
+    }
+    if (kinds.drive) lines = frame ? drive_lines(scene, *frame) : longest_drive_lines(scene);
     for (const std::string& line : lines) {
         writer.write_below(size, x, y, line, writer.main(), writer.palette.ink);
     }
     if (scene.film.exaggerate == 1) return size;
-    if (!lines.empty()) size.height += 0.5 * writer.type.gap;
+    if (size.height > 0) size.height += 0.5 * writer.type.gap;
     const TextSize note = exaggeration_block(writer, scene.film, x, y + size.height);
     return {std::max(size.width, note.width), size.height + note.height};
 }
@@ -188,7 +228,8 @@ TextSize exaggeration_block(const Writer& writer, const Film& film, double x, do
     TextSize size;
     if (film.exaggerate == 1) return size;
     for (const std::string& line :
-         {std::string("wall motion"), fmt::format("drawn {:.3g}×", film.exaggerate)}) {
+         {film.wording(Word::wall_motion),
+          film.wording(Word::drawn_larger, {fmt::format("{:.3g}", film.exaggerate)})}) {
         writer.write_below(size, x, y, line, {writer.type.minor, true}, writer.palette.accent);
     }
     return size;
@@ -209,15 +250,17 @@ std::vector<std::string> clock_lines(const FilmedScene& scene, const State& fram
     const bool known = !std::isnan(frame.time);
     if (kinds.time && known) lines.push_back(time_text(frame.time, scene.run.duration));
     const bool cycle = kinds.cycle && scene.drive.present && known;
+    const Wording& say = scene.film.wording;
     if (cycle && frame.time < 0) {
-        lines.emplace_back("before the drive");
+        lines.push_back(say(Word::before_the_drive));
     } else if (cycle) {
         const ShownCycle shown = shown_cycle(frame);
-        lines.push_back(fmt::format("cycle {}", shown.cycle));
-        lines.push_back(fmt::format("phase {:.2f}", shown.phase));
+        lines.push_back(say(Word::cycle, {std::to_string(shown.cycle)}));
+        lines.push_back(say(Word::phase, {fmt::format("{:.2f}", shown.phase)}));
     }
     if (scene.container.tray && kinds.counts)
-        lines.push_back(fmt::format("{} of {} in the tray", count_in_tray(frame), frame.size()));
+        lines.push_back(say(Word::in_the_tray,
+                            {std::to_string(count_in_tray(frame)), std::to_string(frame.size())}));
     return lines;
 }
 

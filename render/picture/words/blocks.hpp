@@ -79,9 +79,14 @@ TextSize scale_block(const Writer& writer, double scale, double x, double y, dou
 TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
 // The directions x, y and z as the camera sees them, where the film wants them. view: null while measuring.
 TextSize axes_block(const Writer& writer, const FilmedScene& scene, const View* view, double x, double y);
-// f, Gamma and amplitude of the drive, and by how much its motion is exaggerated. frame: null to measure the
-// longest lines.
-TextSize drive_block(const Writer& writer, const FilmedScene& scene, const State* frame, double x, double y);
+// What shakes: an arrow along the drive's direction, and words beside it. numbers: "15 Hz, Γ = 4"; may be
+// empty. view: null: seen along -x.
+TextSize shaking_block(const Writer& writer, const FilmedScene& scene, const std::string& numbers,
+                       const View* view, double x, double y);
+// What shakes; f, Gamma and amplitude of the drive; and by how much its motion is exaggerated. frame: null to
+// measure the longest lines.
+TextSize drive_block(const Writer& writer, const FilmedScene& scene, const State* frame, const View* view,
+                     double x, double y);
 // Says only by how much the motion is exaggerated.
 TextSize exaggeration_block(const Writer& writer, const Film& film, double x, double y);
 // A dial whose hand turns once a period, and beside it the place of the floor in its stroke. Without a frame

@@ -2,6 +2,7 @@
 #include "render/picture/words/captions.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,13 +53,25 @@ std::vector<std::string> growing_lines(const FilmedScene& scene, double share) {
     return lines;
 }
 
-std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravity) {
+std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravity, const Wording& say) {
     std::vector<std::string> lines = vibration_lines(now.frequency, now.amplitude, gravity);
-    if (now.kind == DriveStage::Kind::rest) lines.assign({"at rest"});
+    if (now.kind == DriveStage::Kind::rest) lines.assign({say(Word::at_rest)});
     if (now.kind != DriveStage::Kind::taps) return lines;
-    lines.front() = "taps of " + frequency_text(now.frequency);
-    lines.back() = fmt::format("every {:.3g} s", now.interval);
+    lines.front() = say(Word::taps, {frequency_text(now.frequency)});
+    lines.back() = say(Word::tap_interval, {fmt::format("{:.3g} s", now.interval)});
     return lines;
+}
+
+// The lines of the drive in one: "f = 15 Hz", "Γ = 4", "a = 4.4 mm" become "15 Hz, Γ = 4".
+std::string in_short(const std::vector<std::string>& lines, ShakingParts parts, bool has_level) {
+    std::vector<std::string> words;
+    for (const std::string& line : lines) {
+        const bool level = line.starts_with("Γ = "), amplitude = line.starts_with("a = ");
+        if ((level && !parts.g_level) || (amplitude && has_level)) continue;
+        if (!level && !amplitude && !parts.frequency) continue;
+        words.push_back(line.starts_with("f = ") ? line.substr(4) : line);
+    }
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 }  // namespace
@@ -68,7 +81,7 @@ std::vector<std::string> drive_lines(const FilmedScene& scene, const State& fram
     const double share = grown_share(scene.drive, cycles);
     const DriveSchedule::Now now = drive_now(scene.drive, std::max(0.0, cycles));
     if (share < 1) return growing_lines(scene, share);
-    return stage_lines(now, scene.gravity.norm());
+    return stage_lines(now, scene.gravity.norm(), scene.film.wording);
 }
 
 bool drive_lines_change(const Drive& drive) {
@@ -88,10 +101,18 @@ std::vector<std::string> longest_drive_lines(const FilmedScene& scene) {
     if (!scene.drive.changes()) return longest;
     const DriveSchedule schedule(scene.drive);
     for (const PeriodStretch& stretch : schedule.times().stretches())
-        take(stage_lines(schedule.now(stretch.cycles), gravity));
+        take(stage_lines(schedule.now(stretch.cycles), gravity, scene.film.wording));
     // While a stage changes into another, numbers have three digits.
     take({"f = 88.8 Hz", "Γ = 88.8", "a = 88.8 mm"});
     return longest;
+}
+
+std::string shaking_text(const FilmedScene& scene, const State& frame, ShakingParts parts) {
+    return in_short(drive_lines(scene, frame), parts, scene.gravity.norm() > 0);
+}
+
+std::string longest_shaking_text(const FilmedScene& scene, ShakingParts parts) {
+    return in_short(longest_drive_lines(scene), parts, scene.gravity.norm() > 0);
 }
 
 std::string shown_title(const Film& film) {
@@ -140,30 +161,14 @@ ShownCycle shown_cycle(const State& frame) {
 std::string playback_text(const Film& film, const State& frame, const std::string& playback) {
     if (!film.word_kinds.playback) return "";
     if (!(frame.time < 0)) return playback;  // time is NaN where it is not known
-    return playback.empty() ? "settling, drive off" : "settling, drive off; " + playback;
+    return film.wording(Word::settling) + (playback.empty() ? "" : "; " + playback);
+}
+
+std::string joined(const std::string& note, const std::string& caption) {
+    return note.empty() || caption.empty() ? note + caption : note + "\n\n" + caption;
 }
 
 namespace {
-
-// Joins two parts of a note, with an empty line between them.
-std::string joined(const std::string& one, const std::string& other) {
-    return one.empty() || other.empty() ? one + other : one + "\n\n" + other;
-}
-
-std::string mass_text(double kilograms) {
-    if (kilograms >= 0.9995) return fmt::format("{:.3g} kg", kilograms);
-    return kilograms >= 0.9995e-3 ? fmt::format("{:.3g} g", 1e3 * kilograms)
-                                  : fmt::format("{:.3g} mg", 1e6 * kilograms);
-}
-
-// Gives the total number of grains only where all of them are there from the start. Where grains are fed,
-// some are yet to come.
-std::string outflow_text(const FilmedScene& scene, const FlowedOut& out) {
-    const std::int64_t all = scene.grains();
-    const std::string grains = scene.grains_at_start() == all ? fmt::format("{} of {} out", out.grains, all)
-                                                              : fmt::format("{} out", out.grains);
-    return fmt::format("{}\n{} out", grains, mass_text(out.mass));
-}
 
 // The words with the values of the frame's last row of measures.
 std::string text_now(const std::vector<LiveWords>& words, const Shot& frame) {
@@ -183,7 +188,8 @@ std::string longest_text(const std::vector<LiveWords>& words) {
     return live_text(words, [](const std::string&) { return std::optional(-1.23e-4); });
 }
 
-// The caption that is shown at the frame's time; empty for none.
+}  // namespace
+
 std::string caption_at(const Film& film, const Shot& frame) {
     if (!film.word_kinds.captions) return {};
     for (const FilmCaption& caption : film.captions)
@@ -192,27 +198,44 @@ std::string caption_at(const Film& film, const Shot& frame) {
     return {};
 }
 
+std::string longest_caption(const FilmCaption& caption) {
+    return caption.words.empty() ? caption.text : longest_text(caption.words);
+}
+
+namespace {
+
+std::string mass_text(double kilograms) {
+    if (kilograms >= 0.9995) return fmt::format("{:.3g} kg", kilograms);
+    return kilograms >= 0.9995e-3 ? fmt::format("{:.3g} g", 1e3 * kilograms)
+                                  : fmt::format("{:.3g} mg", 1e6 * kilograms);
+}
+
+// Gives the total number of grains only where all of them are there from the start. Where grains are fed,
+// some are yet to come.
+std::string outflow_text(const FilmedScene& scene, const FlowedOut& out) {
+    const std::int64_t all = scene.grains();
+    const Wording& say = scene.film.wording;
+    const std::string grains = std::to_string(out.grains);
+    return fmt::format("{}\n{}",
+                       scene.grains_at_start() == all ? say(Word::out_of, {grains, std::to_string(all)})
+                                                      : say(Word::out, {grains}),
+                       say(Word::out, {mass_text(out.mass)}));
+}
+
 }  // namespace
 
 std::string note_text(const FilmedScene& scene, const Shot& frame) {
     const std::string text = text_now(scene.film.shows.live_words, frame);
     const bool flows = scene.film.word_kinds.counts && frame.flowed_out && frame.flowed_out->grains > 0;
     const std::string out = flows ? outflow_text(scene, *frame.flowed_out) : "";
-    return joined(joined(out, text), caption_at(scene.film, frame));
+    return joined(out, text);
 }
 
-std::vector<std::string> longest_notes(const FilmedScene& scene) {
+std::string longest_note(const FilmedScene& scene) {
     const std::string text = longest_text(scene.film.shows.live_words);
     const FlowedOut most{scene.grains(), 0.888};
-    const WordKinds& kinds = scene.film.word_kinds;
-    const bool flows = scene.film.shows.outflow && kinds.counts;
-    const std::string always = joined(flows ? outflow_text(scene, most) : "", text);
-    std::vector<std::string> notes;
-    if (!always.empty()) notes.push_back(always);
-    if (!kinds.captions) return notes;
-    for (const FilmCaption& caption : scene.film.captions)
-        notes.push_back(joined(always, caption.words.empty() ? caption.text : longest_text(caption.words)));
-    return notes;
+    const bool flows = scene.film.shows.outflow && scene.film.word_kinds.counts;
+    return joined(flows ? outflow_text(scene, most) : "", text);
 }
 
 }  // namespace grainreel

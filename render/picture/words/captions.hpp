@@ -25,6 +25,12 @@ double round_length(double longest);
 // Lines that say what the drive does in a frame: f, Gamma and amplitude. While the drive grows or goes from
 // one stage to another, these are the values of the moment.
 std::vector<std::string> drive_lines(const FilmedScene& scene, const State& frame);
+// What shakes in one line: "15 Hz, Γ = 4", "at rest". A part that is not wanted is left out.
+struct ShakingParts {
+    bool frequency = true, g_level = true;
+};
+std::string shaking_text(const FilmedScene& scene, const State& frame, ShakingParts parts = {});
+std::string longest_shaking_text(const FilmedScene& scene, ShakingParts parts = {});
 // Whether these lines differ from frame to frame.
 bool drive_lines_change(const Drive& drive);
 // As many lines as drive_lines() gives at most in the course of the film, each about as long as it gets.
@@ -39,14 +45,16 @@ ShownCycle shown_cycle(const State& frame);
 // The caption of time. While the grains still settle, it also says this. Empty where the film does not show
 // it.
 std::string playback_text(const Film& film, const State& frame, const std::string& playback);
-// What has flowed out, the scene's own words (film.text, with the latest values of measures), and the caption
-// shown at this time. longest_notes() gives texts about as long as these get: one for each caption, or a
-// single one if there are no captions.
+// What has flowed out, and the scene's own words (film.text, with the latest values of measures).
+// longest_note() gives a text about as long as these get.
 std::string note_text(const FilmedScene& scene, const Shot& frame);
-std::vector<std::string> longest_notes(const FilmedScene& scene);
-// How many lines of the gutter each line of a note may take.
-inline int note_lines(const FilmedScene& scene) {
-    return scene.film.captions.empty() ? 2 : 6;
-}
+std::string longest_note(const FilmedScene& scene);
+// The caption that is shown at the frame's time; empty for none.
+std::string caption_at(const Film& film, const Shot& frame);
+// The caption, with values about as long as they get.
+std::string longest_caption(const FilmCaption& caption);
+// A note with a caption below it.
+std::string joined(const std::string& note, const std::string& caption);
+constexpr int note_lines = 3;  // lines of the gutter that each line of a note may take
 
 }  // namespace grainreel

@@ -8,6 +8,7 @@
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/words/blocks.hpp"
+#include "render/picture/words/caption_band.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -45,7 +46,7 @@ double natural_height(const FilmedScene& scene, const TypeScale& type, int width
 // The layout with gutters above and below. Plots take the height that the container does not need.
 PictureLayout stacked(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     const TypeScale& type = layout.type;
-    const int width = scene.film.width, height = scene.film.height;
+    const int width = scene.film.width, height = scene.film.height - layout.caption.height;
     layout.stacked = true;
     layout.first.height = static_cast<int>(0.34 * height);
     const FirstPart first = first_part(measure, scene, nullptr, layout, width);
@@ -89,7 +90,7 @@ double least_column(const FilmedScene& scene, const Writer& measure, const std::
 // The layout with gutters at the left and right.
 PictureLayout side_by_side(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
     const TypeScale& type = layout.type;
-    const int width = scene.film.width, height = scene.film.height;
+    const int width = scene.film.width, height = scene.film.height - layout.caption.height;
     const double most = 0.33 * width;
     const std::string title = shown_title(scene.film);
     const double words =
@@ -123,6 +124,7 @@ Judged judged(const FilmedScene& scene, PictureLayout layout, const Writer& meas
     if (drive && kinds.dial && !plan.has_dial) layout.left_out.emplace_back("dial");
     if (drive && kinds.arrows && layout.stacked && !plan.has_arrows) layout.left_out.emplace_back("arrows");
     if (plan.plots.size() < scene.film.shows.plots.size()) layout.left_out.emplace_back("plots");
+    if (plan_captions(scene.film, scene.film.width).cut) layout.left_out.emplace_back("a part of a caption");
     const double scale = framed_scale(scene, layout);
     return {std::move(layout), scale, plan.fits};
 }
@@ -140,6 +142,8 @@ Judged largest_letters(const FilmedScene& scene, bool above_and_below) {
     for (const double shrink : shrinks) {
         PictureLayout layout;
         layout.type = type_scale(scene.film, shrink);
+        const int band = plan_captions(scene.film, scene.film.width).band();
+        if (band > 0) layout.caption = {0, scene.film.height - band, scene.film.width, band};
         const Writer measure{nullptr, layout.type, palette};
         layout = above_and_below ? stacked(scene, layout, measure) : side_by_side(scene, layout, measure);
         const Judged here = judged(scene, layout, measure);
@@ -171,7 +175,8 @@ PictureLayout plan_layout(const FilmedScene& scene) {
     PictureLayout& layout = best.layout;
     layout.plates =
         words == WordPlace::plates || (words == WordPlace::automatic && scene.film.camera.framed_by_user());
-    if (layout.plates) layout.port = bare_layout(scene.film).port;
+    if (layout.plates)
+        layout.port = {0, 0, scene.film.width, scene.film.height - layout.caption.height};
     return layout;
 }
 

@@ -43,8 +43,9 @@ Colour lit(const Vec3& normal, const Colour& albedo) {
 }
 
 // Draws a small sphere of the legend, lit as the grains are: a picture of the lit hemisphere, cut out by a
-// smooth circle. (x, y): centre, pixels.
-void draw_lit_ball(cairo_t* on, double x, double y, double radius, const Colour& colour) {
+// smooth circle. (x, y): centre, pixels. colour(share): the sphere's own colour at a height, 0 to 1.
+template <class ColourAt>
+void draw_lit_ball(cairo_t* on, double x, double y, double radius, const ColourAt& colour) {
     const int side = 2 * static_cast<int>(std::ceil(radius)) + 2;
     const int stride = cairo_format_stride_for_width(CAIRO_FORMAT_RGB24, side);
     std::vector<std::uint8_t> pixels(static_cast<std::size_t>(stride) * side);
@@ -57,7 +58,7 @@ void draw_lit_ball(cairo_t* on, double x, double y, double radius, const Colour&
                 v /= length;
             }
             const Vec3 normal(u, v, -std::sqrt(std::max(0.0, 1 - u * u - v * v)));
-            const Colour shade = lit(normal, colour);
+            const Colour shade = lit(normal, colour(0.5 + 0.5 * v));
             const std::array<double, 3> channels = {shade.blue, shade.green, shade.red};
             for (std::size_t c = 0; c < 3; ++c)
                 pixels[static_cast<std::size_t>(row) * stride + 4 * static_cast<std::size_t>(column) + c] =
@@ -113,13 +114,14 @@ class Entries {
     // alone.
     std::vector<std::string> numbers_of(const Species& species) const {
         const std::string wide = diameter_text(species.diameter);
-        if (species.all() == 0) return {fmt::format("{}, glued to walls", wide)};
-        if (species.count == 0) return {fmt::format("{} × {}, fed", species.fed, wide)};
+        const Wording& say = scene_.film.wording;
+        if (species.all() == 0) return {say(Word::glued, {wide})};
+        if (species.count == 0) return {say(Word::fed, {fmt::format("{} × {}", species.fed, wide)})};
         const Container& container = scene_.container;
         const bool changes = species.fed > 0 || (container.outlet && !container.tray);
-        std::vector<std::string> lines{
-            fmt::format("{} × {}{}", species.count, wide, changes ? " at the start" : "")};
-        if (species.fed > 0) lines.push_back(fmt::format("{} more are fed", species.fed));
+        const std::string number = fmt::format("{} × {}", species.count, wide);
+        std::vector<std::string> lines{changes ? say(Word::at_the_start, {number}) : number};
+        if (species.fed > 0) lines.push_back(say(Word::more_fed, {std::to_string(species.fed)}));
         return lines;
     }
 
@@ -134,7 +136,8 @@ class Entries {
             size.height += part.height;
         };
         if (i == shown) {
-            line(fmt::format("and {} more", scene_.species.size() - i), writer_.minor(),
+            line(scene_.film.wording(Word::more_species, {std::to_string(scene_.species.size() - i)}),
+                 writer_.minor(),
                  writer_.palette.faint_ink);
             return size;
         }
@@ -142,14 +145,25 @@ class Entries {
         line(species.name, writer_.main(), writer_.palette.ink);
         for (const std::string& numbers : numbers_of(species))
             line(numbers, writer_.minor(), writer_.palette.faint_ink);
-        const GrainColouring& colour = scene_.film.shows.colour;
-        const bool own = colour.by == GrainValue::species || (colour.of_grains() && !colour.colours(i));
         const double share =
             std::max(0.25, species.diameter.largest / std::max(largest_diameter(scene_), 1e-30));
-        if (writer_.on)
-            draw_lit_ball(writer_.on, x + 0.5 * icon_, y + 0.5 * size.height, 0.5 * icon_ * share,
-                          own ? scene_.colours[i] : neutral_grain);
+        if (writer_.on) draw_ball(i, x + 0.5 * icon_, y + 0.5 * size.height, 0.5 * icon_ * share);
         return size;
+    }
+
+    // A species whose colours stand for a quantity has all colours of the bar, so that it does not look like
+    // one that only walls have.
+    void draw_ball(std::size_t i, double x, double y, double radius) const {
+        const GrainColouring& colouring = scene_.film.shows.colour;
+        if (colouring.colours(i) && scene_.species[i].all() > 0) {
+            const ColourScale scale(colouring);
+            return draw_lit_ball(writer_.on, x, y, radius,
+                                 [&](double share) { return scale.at_share(share); });
+        }
+        const bool plain = colouring.by == GrainValue::species ||
+                           (colouring.of_grains() && !colouring.colours(i));
+        const Colour own = plain ? scene_.colours[i] : neutral_grain;
+        draw_lit_ball(writer_.on, x, y, radius, [&](double) { return own; });
     }
 
     const Writer writer_;
@@ -285,8 +299,8 @@ ColourBarPlace colour_bar_place(const ColourScale& scale, const TypeScale& type,
 std::vector<ColourScale> colour_scales(const Film& film) {
     std::vector<ColourScale> scales;
     if (!film.word_kinds.legend) return scales;
-    if (film.shows.colour.by != GrainValue::species) scales.emplace_back(film.shows.colour);
-    if (film.look.walls.coloured()) scales.emplace_back(film.look.walls);
+    if (film.shows.colour.by != GrainValue::species) scales.emplace_back(film.shows.colour, film.wording);
+    if (film.look.walls.coloured()) scales.emplace_back(film.look.walls, film.wording);
     return scales;
 }
 

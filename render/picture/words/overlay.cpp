@@ -27,6 +27,7 @@ Overlay::Overlay(const FilmedScene& scene, const Palette& palette, const Picture
       type_(layout.type),
       plan_(plan_numbers({nullptr, type_, palette_}, scene, layout.second.width, layout.second.height,
                          layout.stacked)),
+      captions_(plan_captions(scene.film, layout.caption.width)),
       first_plates_(plates_around(
           first_part({nullptr, type_, palette_}, scene, &view, layout, layout.first.width).boxes, type_,
           layout.first)),
@@ -44,6 +45,7 @@ std::vector<Rectangle> Overlay::moving() const {
     if (plan_.drive_part.height > 0) parts.push_back(plan_.drive_part);
     parts.insert(parts.end(), plan_.plots.begin(), plan_.plots.end());
     for (Rectangle& part : parts) part.x += layout_.second.x, part.y += layout_.second.y;
+    if (layout_.caption.height > 0) parts.push_back(layout_.caption);
     return parts;
 }
 
@@ -73,7 +75,8 @@ void Overlay::draw_still_numbers(const View& view) {
     const Writer writer{on.get(), type_, palette_};
     if (plan_.has_dial)
         dial_block(writer, scene_.drive, nullptr, plan_.radius, plan_.dial.x, plan_.dial.y, &view);
-    if (!drive_lines_change(scene_.drive)) drive_block(writer, scene_, nullptr, plan_.drive.x, plan_.drive.y);
+    if (!drive_lines_change(scene_.drive)) 
+        drive_block(writer, scene_, nullptr, &view, plan_.drive.x, plan_.drive.y);
     if (layout_.stacked && plan_.has_arrows)
         arrows_block(writer, scene_, &view, plan_.arrows.x, plan_.arrows.y);
 }
@@ -121,28 +124,29 @@ void Overlay::write(Picture& picture, const Shot& frame, const std::string& play
         put(still_.get(), {0, 0, layout_.second.width, layout_.second.height}, layout_.second, picture);
     }
     const std::string clock = clock_words(scene_, frame),
-                      caption = playback_text(scene_.film, frame, playback);
+                      pace = playback_text(scene_.film, frame, playback);
     if (!written_ || clock != clock_)
         renew(picture, plan_.clock_part, [&](cairo_t* on) {
             clock_block({on, type_, palette_}, scene_, frame, plan_.clock.x, plan_.clock.y);
         });
-    if (!written_ || caption != caption_)
+    if (!written_ || pace != pace_)
         renew(picture, plan_.caption_part, [&](cairo_t* on) {
             const Writer writer{on, type_, palette_};
-            if (!caption.empty())
-                writer.write(plan_.caption.x, plan_.caption.y, caption, writer.minor(), palette_.faint_ink,
+            if (!pace.empty())
+                writer.write(plan_.caption.x, plan_.caption.y, pace, writer.minor(), palette_.faint_ink,
                              plan_.caption_wrap, plan_.caption_lines);
         });
     const std::string note = note_text(scene_, frame);
     if (plan_.note_part.height > 0 && (!written_ || note != note_))
         renew(picture, plan_.note_part, [&](cairo_t* on) {
             note_block({on, type_, palette_}, note, plan_.note.x, plan_.note.y + 0.5 * type_.gap,
-                       plan_.note_wrap, note_lines(scene_));
+                       plan_.note_wrap, note_lines);
         });
-    const std::string drive = fmt::format("{}", fmt::join(drive_lines(scene_, frame), "\n"));
+    const std::string drive =
+        scene_.drive.present ? fmt::format("{}", fmt::join(drive_lines(scene_, frame), "\n")) : "";
     if (plan_.drive_part.height > 0 && (!written_ || drive != drive_))
         renew(picture, plan_.drive_part, [&](cairo_t* on) {
-            drive_block({on, type_, palette_}, scene_, &frame, plan_.drive.x, plan_.drive.y);
+            drive_block({on, type_, palette_}, scene_, &frame, &view, plan_.drive.x, plan_.drive.y);
         });
     // The hand shows the phase of the drive. Before the drive begins there is no hand.
     const double angle = frame.time < 0 ? -1 : frame.phase;
@@ -153,13 +157,26 @@ void Overlay::write(Picture& picture, const Shot& frame, const std::string& play
                        &view);
         });
     renew_plots(picture, frame);
+    renew_caption(picture, frame);
     written_ = true;
     clock_ = clock;
-    caption_ = caption;
+    pace_ = pace;
     note_ = note;
     drive_ = drive;
     angle_ = angle;
     stroke_ = stroke;
+}
+
+void Overlay::renew_caption(Picture& picture, const Shot& frame) {
+    const Rectangle& band = layout_.caption;
+    const std::string caption = caption_at(scene_.film, frame);
+    if (band.height <= 0 || (written_ && caption == caption_)) return;
+    caption_ = caption;
+    const CairoSurface surface = blank_surface(band, palette_.background, scene_.film.transparent ? 0 : 1);
+    const CairoContext on(cairo_create(surface.get()));
+    draw_caption({on.get(), type_, palette_}, captions_, caption, band.width);
+    const Rectangle all{0, 0, band.width, band.height};
+    put(surface.get(), all, band, picture);
 }
 
 void Overlay::lay_over(Picture& picture) const {

@@ -15,6 +15,7 @@
 #include "render/picture/base/view.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/words/blocks.hpp"
+#include "render/picture/words/caption_band.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -45,12 +46,14 @@ class Overlay {
     template <class Draw>
     void renew(Picture& picture, const Rectangle& part, const Draw& draw);
     void renew_plots(Picture& picture, const Shot& frame);
+    void renew_caption(Picture& picture, const Shot& frame);
 
     const FilmedScene& scene_;
     const Palette palette_;
     const PictureLayout layout_;
     const TypeScale type_;
     const NumbersPlan plan_;
+    const CaptionPlan captions_;
     const std::vector<Rectangle> first_plates_, second_plates_;  // pixels from the gutters' corners
     CairoSurface first_, still_, second_;
     std::vector<std::unique_ptr<SidePlot>> plots_;
@@ -58,7 +61,7 @@ class Overlay {
     bool written_ = false;
     std::uint64_t still_number_ = 0;
     // The words and the dial's values that are in the picture now.
-    std::string clock_, caption_, note_, drive_;
+    std::string clock_, pace_, note_, drive_, caption_;
     double angle_ = 0, stroke_ = 0;
 };
 

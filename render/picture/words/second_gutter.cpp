@@ -13,8 +13,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr double most_plot = 0.4, least_plot = 0.16, least_row = 0.16;  // of the picture's height
-constexpr double least_lines = 5;         // height of a plot, in heights of minor letters
+constexpr double most_plot = 0.4;    // of the picture's height
+constexpr double least_box = 0.125;  // height of a plot's box as a share of the picture's shorter side
 constexpr double least_letters = 11;      // width of a plot in a row, in heights of minor letters
 constexpr double most_plot_width = 0.24;  // of the picture's width
 constexpr double plot_width = 0.2;        // in a gutter at the side, as a share of the picture's width
@@ -47,9 +47,9 @@ class Planner {
         plan_.has_dial = wanted.dial && scene.drive.present && kinds_.dial;
         plan_.radius = std::min(2.2 * type_.main, stacked ? 0.14 * inner_ : 1e9);
         if (plan_.has_dial) dial_ = dial_block(measure, scene.drive, nullptr, plan_.radius, 0, 0);
-        if (scene.drive.present) drive_ = drive_block(measure, scene, nullptr, 0, 0);
+        if (scene.drive.present) drive_ = drive_block(measure, scene, nullptr, nullptr, 0, 0);
         if (plan_.has_arrows && stacked) arrows_ = arrows_block(measure, scene, nullptr, 0, 0);
-        plan_.wraps = kinds_.playback || !longest_notes(scene).empty() || count() > 0;
+        plan_.wraps = kinds_.playback || !longest_note(scene).empty() || count() > 0;
         plan_.empty =
             !plan_.wraps && !plan_.has_dial && std::max({clock_.height, drive_.height, arrows_.height}) <= 0;
     }
@@ -69,11 +69,17 @@ class Planner {
         return widest;
     }
     double note_height(double wrap) const {
-        double highest = 0;
-        for (const std::string& note : longest_notes(scene_))
-            highest = std::max(highest,
-                               note_block(measure_, note, 0, 0, wrap, note_lines(scene_)).height + type_.gap);
-        return highest;
+        const std::string note = longest_note(scene_);
+        return note.empty() ? 0
+                            : note_block(measure_, note, 0, 0, wrap, note_lines).height + type_.gap;
+    }
+    // Pixels: the least height of a plot of this width, with its title, ticks and the name of the axis of time.
+    double least_plot(double wide) const {
+        double title = 0;
+        for (const FilmPlot& plot : scene_.film.shows.plots)
+            title = std::max(title, measure_text(plot.label + " (mm)", measure_.main(), wide, 2).height);
+        return least_box * std::min(scene_.film.width, scene_.film.height) + title + 2 * line_ +
+               0.95 * type_.minor;
     }
     // A part of the gutter in whole pixels.
     Rectangle part(double left, double top, double right, double bottom) const {
@@ -114,8 +120,10 @@ NumbersPlan Planner::column() {
     plan_.caption = {x_, y};
     plan_.caption_wrap = plan_.note_wrap = inner_;
     const double note = note_height(inner_);
+    const int most_lines = count() > 0 ? 2 : 4;  // plots need the room more
     if (kinds_.playback)
-        plan_.caption_lines = std::clamp(static_cast<int>((height_ - type_.margin - y - note) / line_), 1, 4);
+        plan_.caption_lines =
+            std::clamp(static_cast<int>((height_ - type_.margin - y - note) / line_), 1, most_lines);
     const double end = y + plan_.caption_lines * line_;
     plan_.caption_part = part(0, y, width_, end);
     plan_.note = {x_, end};
@@ -124,7 +132,7 @@ NumbersPlan Planner::column() {
     plan_.fits = plan_.width <= inner_ && plan_.height <= height_ - 0.5 * type_.margin;
     plan_.boxes.push_back({x_, plan_.clock.y, inner_, plan_.height - plan_.clock.y});
     const double free = height_ - type_.margin - plan_.height;
-    const double least = std::max(least_plot * scene_.film.height, least_lines * type_.minor) + type_.gap;
+    const double least = least_plot(inner_) + type_.gap;
     const double fit = std::min(count(), std::floor(free / least));
     if (fit < 1) return plan_;
     plan_.width = std::max({plan_.width, plot_width * scene_.film.width,
@@ -141,11 +149,11 @@ NumbersPlan Planner::column() {
 // not known, they are as high as `height` says, but not lower than a plot may be.
 void Planner::plots_in_row(double x, double y, double width, double height) {
     if (count() < 1) return;
-    const double least = std::max(least_row * scene_.film.height, least_lines * type_.minor);
     const double wide = (width - type_.gap * (count() - 1)) / count();
+    const double least = least_plot(std::max(1.0, wide));
     const double room = height_ < 1e8 ? height_ - type_.margin - y : std::max(least, height);
     if (room < least || wide < least_letters * type_.minor) return;
-    const double each = std::min(room, most_plot * scene_.film.height);
+    const double each = std::min(room, std::max(least, most_plot * scene_.film.height));
     for (double k = 0; k < count(); ++k)
         plan_.plots.push_back(whole(x + k * (wide + type_.gap), y, wide, each));
     plan_.height = std::max(plan_.height, y + each);

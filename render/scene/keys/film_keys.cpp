@@ -241,6 +241,17 @@ const KeyTable<Film>& picture_table() {
             .written_at(1),
         text("title", &Film::title, note("`title`"), "Shown on the frame; \"\" for none.")
             .usually([](Film& film, const Scene& scene) { film.title = scene.title; }),
+        bound_by<Film>(choice("lang", all_of(language_words()), literal("\"en\""),
+                              "Language of the fixed words of films and pages; [film.wording] has your own."),
+                       [](Document& document, const Scene&, const std::string& path, Film& film) {
+                           const auto word = document.text(path);
+                           for (const auto& [said, language] : language_words())
+                               if (word && *word == said) film.wording.language = language;
+                       },
+                       [](const Film& film, const Scene&) {
+                           return quoted(word_of(film.wording.language, language_words()));
+                       })
+            .unwritten_if([](const Film& film) { return film.wording.language == Language::en; }),
     };
     return table;
 }
@@ -302,6 +313,7 @@ void list_film(Keys& all) {
     list_captions(all);
     list_labels(all);
     list_shows(all);
+    list_wording(all);
 }
 
 // Style and purpose are read first, because the style sets the default of the background and the purpose sets
@@ -313,6 +325,7 @@ void read_film(Document& document, FilmedScene& scene) {
     file_table().read(document, scene, "film", film);
     picture_table().read(document, scene, "film", film);
     settle_film_file(document, scene);
+    read_wording(document, scene);
     read_camera(document, scene);
     scenery_table().read(document, scene, "film", film);
     read_segments(document, scene);
@@ -337,6 +350,7 @@ void write_film(SceneText& out, const FilmedScene& scene) {
     write_segments(out, scene);
     write_captions(out, scene);
     write_labels(out, scene);
+    write_wording(out, scene);
 }
 
 Colour read_colour(Document& document, const std::string& path, const char* example) {

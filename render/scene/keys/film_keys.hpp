@@ -74,6 +74,11 @@ void list_captions(keys::Keys& all);
 void read_captions(Document& document, FilmedScene& scene);  // call it after [run] is read
 void write_captions(SceneText& out, const FilmedScene& scene);
 
+// The own words of [film.wording]. Call it after `lang` is read and before plots are, whose labels follow.
+void list_wording(keys::Keys& all);
+void read_wording(Document& document, FilmedScene& scene);
+void write_wording(SceneText& out, const FilmedScene& scene);
+
 // The words and values of a text that stands at `path`.
 std::vector<LiveWords> parts_of_text(const Document& document, const Scene& scene, const std::string& path,
                                      const std::string& text);

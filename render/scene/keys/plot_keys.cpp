@@ -22,20 +22,19 @@ const ChoiceWords<ProfileOf> profile_words{{"solid-fraction", ProfileOf::solid_f
                                            {"horizontal-velocity", ProfileOf::horizontal_velocity},
                                            {"vertical-velocity", ProfileOf::vertical_velocity}};
 
-const char* usual_label(ProfileOf profile) {
+Word usual_label(ProfileOf profile) {
     switch (profile) {
-        case ProfileOf::solid_fraction:
-            return "solid fraction";
         case ProfileOf::share:
-            return "share of the solid volume";
+            return Word::share;
         case ProfileOf::horizontal_velocity:
-            return "horizontal velocity";
+            return Word::horizontal_velocity;
         case ProfileOf::vertical_velocity:
-            return "vertical velocity";
+            return Word::vertical_velocity;
+        case ProfileOf::solid_fraction:
         case ProfileOf::nothing:
             break;
     }
-    return "";
+    return Word::solid_fraction;
 }
 
 void read_profile(Document& document, const Scene& scene, const std::string& path, FilmPlot& plot) {
@@ -43,7 +42,6 @@ void read_profile(Document& document, const Scene& scene, const std::string& pat
     if (!word) return;
     for (const auto& [said, value] : profile_words)
         if (*word == said) plot.profile = value;
-    plot.label = usual_label(plot.profile);
     plot.dimension = plot.of_velocity() ? Dimension::speed : Dimension::number;
     plot.period = plot.of_velocity() && scene.drive.present;
 }
@@ -105,12 +103,17 @@ const KeyTable<FilmPlot>& plot_table() {
             .useless_for([](const P& plot) {
                 return plot.is_profile() ? "a plot with a 'profile' shows that" : nullptr;
             }),
-        choice("smooth", &P::period, smoothings, initial(),
-               "A column is drawn row by row, or at each row as the mean over the last period of the drive.")
+        choice("smooth", &P::period, smoothings, note("period with a drive, else none"),
+               "period: the line of a column is the mean over the last period of the drive, and its rows are "
+               "a faint line behind it; none: the rows alone.")
             .useless_for([](const P& plot) {
                 return plot.is_profile() ? "a 'profile' is of one moment, or says 'of'" : nullptr;
+            })
+            .usually([](P& plot, const Scene& scene) {
+                if (!plot.is_profile()) plot.period = scene.drive.present;
             }),
-        text("label", &P::label, note("by the column"), "Above the plot."),
+        text("label", &P::label, note("by the column"), "Above the plot, and above its chart on the page.")
+            .unwritten_if([](const P& plot) { return !plot.own_label; }),
         bound_by<P>(
             entry("range", KeyKind::interval, note("grows with the data; of a profile: by the scene"),
                   "Of the values' axis."),
@@ -217,12 +220,14 @@ void read_plots(Document& document, FilmedScene& scene) {
         const std::string path = fmt::format("film.plot[{}]", i);
         FilmPlot& plot = scene.film.shows.plots.emplace_back();
         plot_table().read(document, scene, path, plot);
-        if (plot.is_profile()) {
+        if (plot.is_profile())
             check_period(document, scene, path + ".of", plot.period);
-        } else {
+        else
             check_period(document, scene, path + ".smooth", plot.period, "none");
-            if (plot.period && !document.has(path + ".label")) plot.label += ", mean of a period";
-        }
+        plot.own_label = document.has(path + ".label");
+        if (!plot.own_label)
+            plot.label = plot.is_profile() ? scene.film.wording(usual_label(plot.profile))
+                                           : phrase(scene.film.wording.language, plot.label);
         if (plot.is_profile() && !plot.range && !(usual_profile_range(scene, plot)[1] > 0))
             document.fail(path, "needs a 'range': this scene gives no scale for it");
     }

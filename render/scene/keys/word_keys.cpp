@@ -129,10 +129,10 @@ struct WordKind {
     bool WordKinds::*member;
 };
 constexpr WordKind word_kinds[] = {
-    {"title", &WordKinds::title},       {"legend", &WordKinds::legend},    {"time", &WordKinds::time},
-    {"cycle", &WordKinds::cycle},       {"dial", &WordKinds::dial},        {"drive", &WordKinds::drive},
-    {"playback", &WordKinds::playback}, {"scale", &WordKinds::scale},      {"arrows", &WordKinds::arrows},
-    {"counts", &WordKinds::counts},     {"captions", &WordKinds::captions}};
+    {"title", &WordKinds::title},     {"legend", &WordKinds::legend},     {"time", &WordKinds::time},
+    {"cycle", &WordKinds::cycle},     {"dial", &WordKinds::dial},         {"drive", &WordKinds::drive},
+    {"shaking", &WordKinds::shaking}, {"playback", &WordKinds::playback}, {"scale", &WordKinds::scale},
+    {"arrows", &WordKinds::arrows},   {"counts", &WordKinds::counts},     {"captions", &WordKinds::captions}};
 
 std::vector<std::string> word_kind_names() {
     std::vector<std::string> names;
@@ -167,7 +167,7 @@ std::string word_kinds_text(const Film& film, const Scene&) {
 
 keys::BoundKey<Film> word_kinds_key() {
     return bound_by<Film>(
-               of_choices(entry("show", KeyKind::name_list, note("all of them"),
+               of_choices(entry("show", KeyKind::name_list, note("all but cycle, dial, drive and arrows"),
                                 "Words and signs that the film has; [] for none. `words` says where."),
                           word_kind_names()),
                read_word_kinds, word_kinds_text)

@@ -91,7 +91,7 @@ TEST(OutflowOnTheFrame, SaysGrainsAndMass) {
     EXPECT_EQ(note_text(scene, frame), "") << "nothing has flowed out yet";
     frame.flowed_out = FlowedOut{12, 0.0415};
     EXPECT_EQ(note_text(scene, frame), "12 of " + std::to_string(scene.grains()) + " out\n41.5 g out");
-    EXPECT_FALSE(longest_notes(scene).empty());
+    EXPECT_FALSE(longest_note(scene).empty());
 }
 
 }  // namespace

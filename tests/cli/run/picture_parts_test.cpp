@@ -275,13 +275,13 @@ TEST(PictureParts, PutGrainsOnTheirWayBetweenLockedMoments) {
     rule.kind = FilmSegment::Kind::locked;
     rule.between = 2;
     const auto moved = [](std::int64_t step) {
-        return step <= 800 ? Vec3(0.019, 0, 0.001) : Vec3(-0.018, 0, 0.004);
+        return step <= 800 ? Vec3(0.0185, 0, 0.001) : Vec3(-0.0185, 0, 0.004);
     };
     EXPECT_THAT(steps_of(parts.moments(1598, rule, 1)), testing::ElementsAre(800));
     EXPECT_TRUE(parts.moments(1600, rule, 1).empty());
     const Shot first = picture(parts, {1598, rule}, moved), second = picture(parts, {1599, rule}, moved);
-    EXPECT_LT((first.position[0] - Vec3(0.020, 0, 0.002)).norm(), 1e-12) << first.position[0];
-    EXPECT_LT((second.position[0] - Vec3(-0.019, 0, 0.003)).norm(), 1e-12) << second.position[0];
+    EXPECT_LT((first.position[0] - Vec3(0.0195, 0, 0.002)).norm(), 1e-12) << first.position[0];
+    EXPECT_LT((second.position[0] - Vec3(-0.0195, 0, 0.003)).norm(), 1e-12) << second.position[0];
     EXPECT_EQ(picture(parts, {1600, rule}, moved).position[0], moved(1600));
 }
 
