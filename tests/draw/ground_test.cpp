@@ -23,7 +23,8 @@ FilmedScene box_on_ground(const Vec3& direction, double exaggerate) {
     return scene;
 }
 
-// Where the ground takes more than half of the plate's shadow, along y: its middle and its width, m.
+// Where the ground takes more than three quarters of the plate's shadow, which walls do not reach, along y:
+// its middle and its width, m.
 struct Shadow {
     double middle, width, cell;
 };
@@ -36,7 +37,7 @@ Shadow shadow_of_plate(const FilmedScene& scene, const BodyPose& floor) {
     double first = 1e9, last = -1e9;
     for (int j = 0; j < ShadowMap::kSide; ++j)
         for (int i = 0; i < ShadowMap::kSide; ++i) {
-            if (map.cells()[static_cast<std::size_t>(j * ShadowMap::kSide + i)] < 0.5f) continue;
+            if (map.cells()[static_cast<std::size_t>(j * ShadowMap::kSide + i)] < 0.75f) continue;
             first = std::min(first, map.low().y() + j * cell);
             last = std::max(last, map.low().y() + (j + 1) * cell);
         }
