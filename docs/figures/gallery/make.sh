@@ -22,7 +22,8 @@ run movie "$root/scenes/wedge_segregation.toml" --no-film --duration 6 --set out
 run movie "$root/scenes/hopper_discharge.toml" --no-film --duration 0.6 --set output.trajectory_interval=0.02 \
     --out "$work/hopper"
 still=(--set film.rotation=false)
-view=(--set film.camera.azimuth=20 --set film.camera.elevation=10 --set 'film.plot=[]')
+plain=(--set 'film.ghost=[]' --set 'film.trails={}' --set 'film.caption=[]')  # without what the scene's film explains
+view=("${plain[@]}" --set film.camera.azimuth=20 --set film.camera.elevation=10 --set 'film.plot=[]')
 
 picture studio "${still[@]}"
 picture flat "${still[@]}" --set film.style=flat

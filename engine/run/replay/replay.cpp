@@ -74,8 +74,8 @@ Plan plan_of_run(const Scene& scene, const fs::path& run) {
             "{}: has no checkpoints, so that no moment can be brought back; ask for a kept moment "
             "with --no-replay, or run the scene again with output.checkpoints",
             run.string()));
-    // The file that a run started from may be gone; its first checkpoint has the same grains. Other runs expect
-    // the impacts that they expected when they began.
+    // The file that a run started from may be gone; its first checkpoint has the same grains. Other runs
+    // expect the impacts that they expected when they began.
     if (scene.start.method == Start::Method::file) return make_plan(started_from(scene, kept.front().file));
     Scene there = scene;
     there.start.keep_clock = true;
@@ -166,30 +166,57 @@ std::string why_not(const KeptCheckpoint& one, const std::string& today,
                        value_text(first.then), value_text(first.now));
 }
 
+// Checkpoints that do not count, and why. Those of one reason are told in one line.
+class PassedOver {
+  public:
+    void add(const fs::path& file, const std::string& why) {
+        if (alike_.empty() || alike_.back().why != why) alike_.push_back({file, why, 0});
+        ++alike_.back().count;
+    }
+
+    void tell(std::vector<std::string>& news) const {
+        for (const Alike& some : alike_)
+            news.push_back(some.count == 1
+                               ? fmt::format("{}: {}; it is passed over", some.first.string(), some.why)
+                               : fmt::format("{} and {} more checkpoints: each {}; they are passed over",
+                                             some.first.string(), some.count - 1, some.why));
+    }
+
+  private:
+    struct Alike {
+        fs::path first;
+        std::string why;
+        int count;
+    };
+    std::vector<Alike> alike_;
+};
+
 }  // namespace
 
 std::vector<KeptCheckpoint> own_checkpoints(const fs::path& run, const Scene& scene,
                                             std::vector<std::string>& news) {
     std::vector<KeptCheckpoint> own;
-    const auto pass_over = [&](const fs::path& file, const std::string& why) {
-        news.push_back(fmt::format("{}: {}; it is passed over", file.string(), why));
-    };
+    PassedOver passed_over;
     std::vector<KeptCheckpoint> all = kept_checkpoints(run);
     std::error_code ignored;
     if (const fs::path last = run / "checkpoint.grs"; fs::exists(last, ignored) && !label_of_checkpoint(last))
-        pass_over(last, kDamaged);
-    if (all.empty()) return own;
+        passed_over.add(last, kDamaged);
+    if (all.empty()) {
+        passed_over.tell(news);
+        return own;
+    }
     const std::string today = scene_to_keep(scene, plan_of_run(scene, run));
     const std::vector<AcceptedKey> accepted = read_run_json(run / "run.json").record.accepted;
     for (KeptCheckpoint& one : all) {
         const std::string why = why_not(one, today, accepted);
-        why.empty() ? own.push_back(std::move(one)) : pass_over(one.file, why);
+        why.empty() ? own.push_back(std::move(one)) : passed_over.add(one.file, why);
     }
     // The last checkpoint says how far the run has come, so it must be whole.
     while (!own.empty() && !is_whole_checkpoint(own.back().file)) {
-        pass_over(own.back().file, kDamaged);
+        passed_over.add(own.back().file, kDamaged);
         own.pop_back();
     }
+    passed_over.tell(news);
     return own;
 }
 
