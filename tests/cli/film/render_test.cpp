@@ -277,7 +277,8 @@ TEST_F(RenderProgram, CheckpointsOfAnotherRunArePassedOver) {
          {std::vector<std::string>{"render", "run"}, {"render", "run", "--at", "0.12"}}) {
         const Ended ended = program(words);
         EXPECT_EQ(ended.status, 0) << ended.err;
-        EXPECT_THAT(ended.err, HasSubstr("run/checkpoints/000000000000.grs: "));
+        EXPECT_THAT(ended.err, tells({"run/checkpoints/000000000000.grs and ",
+                                      " more checkpoints: each is of another run"}));
         EXPECT_THAT(ended.err, HasSubstr("nearest"));
     }
     fs::remove_all(here / "run-render");
