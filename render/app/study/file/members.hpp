@@ -32,7 +32,8 @@ struct Member {
     std::vector<std::size_t> at;  // for each variation, the index of the value
     std::size_t seed_index = 0;
     std::optional<std::uint64_t> seed;
-    Assignments sets;  // keys to set: for the whole study, then by the values, the start file, the seed
+    Assignments sets;     // keys to set: for the whole study, then by the values, the start file, the seed
+    Assignments framing;  // the keys that let the pictures of all members show the same part
     std::vector<MemberFile> files;
     // Name of its folder: a short description, and a hash of its complete scene without what does not change
     // its numbers (film, title, name, threads). When a study was changed, this hash tells which members are
