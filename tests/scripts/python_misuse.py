@@ -61,6 +61,7 @@ def calls(run):
         ("no value that can be shown", lambda: render(run, colour=[float("nan")] * 50)),
         ("leave one of them out", lambda: render(run, colour=[1] * 50, colour__by="speed")),
         ("colour__range: must be two numbers", lambda: render(run, colour=[1] * 50, colour__range=3)),
+        ("colour__range: must be two numbers", lambda: render(run, colour=[1] * 50, colour__range=(0, float("inf")))),
         ("film.colour.range: needs", lambda: render(run, colour=[1] * 50, colour__range=(2, 1))),
         ("colour__scale: must be linear or", lambda: render(run, colour=[1] * 50, colour__scale="root")),
         ("there is no map", lambda: render(run, colour=[1] * 50, colour__map="jet")),

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import warnings
 import zlib
 from pathlib import Path
 
@@ -142,6 +143,7 @@ def check_run(program):
     check_frames(run)
     check_own_colours(run)
     check_empty_frames()
+    check_warnings()
     # A file of another program: its last moment too. A grain that moves to the other side of the picture shows which.
     Path("two.xyz").write_text("".join(
         f'1\nLattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:radius:R:1 Time={time}\nA 2 {y} 2 0.5\n'
@@ -169,6 +171,15 @@ def check_frames(run):
     table = run.to_dataframe()
     expect(list(table.groupby("frame").z.max()) == list(trajectory.z.max("atom").values), "the table has other grains")
     expect(abs(float(run.sel(time="100 ms").time) - 0.1) < 1e-3, "a time with a unit finds another frame")
+
+
+def check_warnings():
+    """What a picture cannot show is a warning at the user's line, and names the user's file."""
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        grainreel.render("run/trajectory.nc", at=0.12)
+    expect(len(told) == 1 and told[0].filename == __file__ and "run/trajectory.nc" in str(told[0].message) and
+           "0.12 s was not kept" in str(told[0].message), f"warnings are {[str(each.message) for each in told]}")
 
 
 def check_empty_frames():
@@ -271,6 +282,7 @@ def main(program):
         watchdog = threading.Timer(500, lambda: os._exit(1))
         watchdog.daemon = True
         watchdog.start()
+        warnings.filterwarnings("ignore", ".*has no room for words.*")
         check_pictures()
         check_run(program)
         check_mistakes(program)

@@ -24,11 +24,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Keeps what is said about a picture.
+// Keeps the warnings about a picture.
 class Notes final : public SilentListener {
   public:
     explicit Notes(const Reporter& reporter) : reporter_(reporter) {}
-    void info(const std::string& text) override { lines.push_back(text); }
     void warning(const std::string& text) override { lines.push_back(text); }
     int stop_signal() const override { return reporter_.stop_signal(); }
 

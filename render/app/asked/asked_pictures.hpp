@@ -8,7 +8,7 @@
 //   {"colour": {"title": "age (s)", "range": [0, 2], "map": "viridis", "logarithmic": false,
 //               "id": [0, 4], "value": [0.1, null]}}   own values; without `id` of all grains, by rising id
 // The answer is a line and then the picture's bytes, rows from the top, 4 bytes a pixel:
-//   {"width": 640, "height": 480, "transparent": false, "time": 0.1, "notes": []}
+//   {"width": 640, "height": 480, "transparent": false, "time": 0.1, "notes": ["a warning"]}
 // A mistake is a line without a picture: {"error": "..."}.
 #pragma once
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Union
@@ -99,7 +100,11 @@ def render(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Opt
     The first picture of a run starts a program that stays; the next ones take some tens of ms.
     """
     asked = question(at, frame, size, colour, dict(settings), set)
-    return painter_of(path_of(run, "run"), _program(run, program), _reading(run, reading)).draw(asked)
+    painter = painter_of(path_of(run, "run"), _program(run, program), _reading(run, reading))
+    picture, notes = painter.draw(asked)
+    for note in notes:
+        warnings.warn(note, stacklevel=2)
+    return picture
 
 
 def film(run: Union[PathLike, "Run"], *, out: Optional[PathLike] = None, force: bool = False, size: Any = None,
