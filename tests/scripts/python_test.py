@@ -171,6 +171,9 @@ def check_frames(run):
     table = run.to_dataframe()
     expect(list(table.groupby("frame").z.max()) == list(trajectory.z.max("atom").values), "the table has other grains")
     expect(abs(float(run.sel(time="100 ms").time) - 0.1) < 1e-3, "a time with a unit finds another frame")
+    inside = [float(time) for time in run.time if 0.04 <= time <= 0.16]
+    expect([float(frame.time) for frame in run.sel(time=slice(0.04, "160 ms"))] == inside, "a slice has other times")
+    expect(0 < len(inside) < len(run) == len(run.sel(time=slice(None))), "a slice of times has all frames")
 
 
 def check_warnings():

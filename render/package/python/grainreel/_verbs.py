@@ -97,7 +97,8 @@ def render(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Opt
     - `reading`: a dict, what files of other programs do not say, see `open`.
     - `settings`: keys of [film], as in `colour__by="speed"`; `set={"film.colour.by": "speed"}` is the same.
 
-    The first picture of a run starts a program that stays; the next ones take some tens of ms.
+    The first picture of a run starts a program that stays; the next ones take some tens of ms. What a picture cannot
+    show is told as a warning.
     """
     asked = question(at, frame, size, colour, dict(settings), set)
     painter = painter_of(path_of(run, "run"), _program(run, program), _reading(run, reading))
