@@ -192,6 +192,10 @@ def check_empty_frames():
     counts = [frame.sizes["atom"] for frame in run]
     expect(counts[0] == 0 and counts == list(run.trajectory.grains.values), f"frames have {counts} grains")
     expect(len(run.to_dataframe()) == sum(counts), "the table has places without grains")
+    climbed = run[-1].z - run[2].z  # of the grains that both have
+    expect(list(climbed.id.values) == list(run[2].id.values), f"{climbed.sizes} of {counts} grains are compared")
+    grain = int(run[2].id[3])
+    expect(float(climbed.sel(id=grain)) == float(run[-1].sel(id=grain).z) - float(run[2].z[3]), "grains are mixed up")
     fields = run.to_dataframe("fields")
     points = int(numpy.prod([run.fields.sizes[name] for name in ("time", "y", "z")]))
     expect(len(fields) == points and {"time", "y", "z", "density"} <= set(fields), f"{len(fields)} of {points} points")

@@ -24,7 +24,9 @@ class Run:
 
     It is a sequence of its kept moments, its frames: `len(run)`, `run[-1]`, `for frame in run`. Each is a dataset in
     which a grain is a row: `id`, `species`, `radius`, `x`, `y`, `z` (m), `vx`, `vy`, `vz` (m/s), `wx`, `wy`, `wz`
-    (rad/s). Files are read when they are first asked for. `with grainreel.open(...) as run` closes them at its end.
+    (rad/s). Its rows are in the order of `id`, which is an index: `run[-1].sel(id=12)`, and `run[-1].z - run[0].z` takes
+    the same grains from both. Files are read when they are first asked for. `with grainreel.open(...) as run` closes them
+    at its end.
     """
 
     def __init__(self, folder: object, *, program: object = None, **reading: object) -> None:
