@@ -138,6 +138,8 @@ def check_run(program):
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     for again in (picture, grainreel.render(run, at=0.1, size="160x120", program=program)):
         expect((read_png(Path("at.png").read_bytes()) == again).all(), "render() and the program draw different pictures")
+    expect((run.render(cycle=1, phase=0.5, size="160x120") == run.render(at=0.075, size="160x120")).all(),
+           "half a period after the first is not 0.075 s")
     pale = grainreel.render(run.path, size=(160, 120), program=program, transparent=True)
     expect(pale.shape == (120, 160, 4), f"a transparent picture has the shape {pale.shape}")
     check_frames(run)

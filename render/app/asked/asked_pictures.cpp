@@ -106,7 +106,13 @@ class Desk {
         if (sets != sets_) open(sets);
         RenderRequest what = what_;
         if (asked.contains("frame")) what.frame = asked.at("frame").get<std::int64_t>();
-        if (!what.frame) what.at = asked.contains("at") ? asked.at("at").get<double>() : last();
+        if (asked.contains("cycle")) {
+            what.cycle = asked.at("cycle").get<double>();
+            what.phase = asked.value("phase", 0.0);
+            what.at = time_of_cycle(what, source_->clock(), source_->span().to);
+        } else if (!what.frame) {
+            what.at = asked.contains("at") ? asked.at("at").get<double>() : last();
+        }
         std::optional<OwnColours> own;
         if (asked.contains("colour")) own = own_colours(asked.at("colour"));
         if (const auto drawn = painter_->draw(what, own ? &*own : nullptr)) tell(*drawn);

@@ -195,12 +195,21 @@ def _close_all() -> None:
         _painters.popitem()[1].close()
 
 
-def question(at: object, frame: object, size: object, colour: object, settings: Dict[str, object],
+def question(moment: Mapping[str, object], size: object, colour: object, settings: Dict[str, object],
              more: object) -> Dict[str, Any]:
-    """The question that asks a painter for a picture."""
-    if at is not None and frame is not None:
-        raise GrainreelError("at and frame: both name a moment; leave one out")
+    """The question that asks a painter for a picture. moment: at, frame, cycle and phase, None where not given."""
+    given = [name for name in ("at", "frame", "cycle") if moment[name] is not None]
+    if len(given) > 1:
+        raise GrainreelError(f"{given[0]} and {given[1]}: both name a moment; leave one out")
     asked: Dict[str, Any] = {}
+    at, frame = moment["at"], moment["frame"]
+    if moment["phase"] is not None and moment["cycle"] is None:
+        raise GrainreelError("phase: is a part of a period; give its cycle too")
+    for name, most in (("cycle", math.inf), ("phase", 1)):
+        if moment[name] is not None:
+            asked[name] = number_of(moment[name], name)
+            if not (0 <= asked[name] <= most and math.isfinite(asked[name])):
+                raise wrong(name, "a number from 0" + (" to 1" if most == 1 else ""), moment[name])
     if at is not None:
         asked["at"] = seconds_of(at, "at")
     if frame is not None:
