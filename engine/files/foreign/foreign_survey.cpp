@@ -9,12 +9,36 @@
 #include <set>
 
 #include "engine/base/error.hpp"
+#include "engine/base/text.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/files/foreign/names.hpp"
 
 namespace grainreel {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+bool is_numbered(const std::string& type) {
+    return type.find_first_not_of("0123456789.+-e") == std::string::npos;
+}
+
+// The line that tells of a word among types that are numbers, and is likely to be a slip; empty if there is
+// none. Who names its species with --species knows of it.
+std::string line_of_stray_type(const TypeList& types, const ReadingOptions& options,
+                               const std::string& file) {
+    const std::vector<std::string>& words = types.words();
+    if (std::none_of(words.begin(), words.end(), is_numbered)) return "";
+    for (const std::string& word : words)
+        if (!is_numbered(word) && !options.species.contains(word))
+            return fmt::format(
+                "{}: types are numbers, but one is \"{}\", which becomes a species of its own; mend the "
+                "file if it is a slip, or name that species by --species",
+                file, excerpt(word));
+    return "";
+}
+
+}  // namespace
 
 // The frames in which types are looked for; of many frames only some.
 std::vector<std::size_t> ForeignArchive::looks() const {
@@ -69,6 +93,8 @@ void ForeignArchive::survey() {
                             : fmt::format("{}: has no grain in any frame", path_.string()));
     }
     for (const std::string& line : meaning_->guesses()) news_.push_back(line);
+    if (std::string stray = line_of_stray_type(types_, options_, path_.string()); !stray.empty())
+        news_.push_back(std::move(stray));
     if (!meaning_->has_ids() && frames > 1)
         news_.push_back(fmt::format("{}: has no ids; its grains are counted by their rows", path_.string()));
     survey_contacts();
@@ -160,8 +186,9 @@ void ForeignArchive::make_species() {
     for (const std::string& word : types_.words()) {
         WorldSpecies& species = world_.species.emplace_back();
         const auto named = options_.species.find(word);
-        const bool number = word.find_first_not_of("0123456789.+-e") == std::string::npos;
-        species.name = named != options_.species.end() ? named->second : number ? "type " + word : word;
+        species.name = named != options_.species.end() ? named->second
+                       : is_numbered(word)             ? "type " + word
+                                                       : word;
     }
     if (world_.species.empty()) world_.species.emplace_back().name = "grains";
     std::size_t first = 0;
