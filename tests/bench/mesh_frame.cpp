@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/mesh/load_mesh.hpp"
+#include "engine/mesh/surface.hpp"
 #include "render/picture/whole/renderer.hpp"
 #include "render/scene/filmed_scene.hpp"
 

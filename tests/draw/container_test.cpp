@@ -35,6 +35,27 @@ double lid_edge(const Picture& picture, const Rectangle& port) {
     return y + 1 - covered(picture.pixel(x, y)) - port.y;
 }
 
+// All walls of glass hide nothing, from whatever side they are seen.
+TEST(Container, OfGlassHidesNothing) {
+    FilmedScene scene = wedge();
+    const Palette palette = palette_of(scene.film);
+    ContainerShapes shapes;
+    const auto hidden = [&](bool clear) {
+        Views views{view_of(scene), view_of(scene)};
+        views.clear = clear;
+        draw_container(scene, views, frame_of({}), palette, scene.film.height, shapes);
+        int solid = 0;
+        for (const WallSide* side : {&shapes.behind, &shapes.before})
+            for (const WallSide::Face& face : side->faces) solid += face.alpha >= 0.5;
+        return solid;
+    };
+    for (const auto shape : {Container::Shape::wedge, Container::Shape::cylinder}) {
+        scene.container.shape = shape;
+        EXPECT_GT(hidden(false), 2);
+        EXPECT_EQ(hidden(true), 0);
+    }
+}
+
 FilmedScene level_box() {
     FilmedScene scene = wedge(1280, 720);
     scene.container.shape = Container::Shape::box;
@@ -95,6 +116,7 @@ TEST(ContainerPicture, APlaneIsWhereItsBodyIs) {
 TEST(ContainerPicture, ExaggeratedGrainsStayInTheContainer) {
     FilmedScene scene = level_box();
     scene.film.exaggerate = 5;
+    scene.film.look.shadows = scene.film.look.occlusion = false;  // walls show them beside the grain
     const View view = view_of(scene);
     const Vec3 offset(0, 0, 0.006), resting(0, 0.01, 0.02);
     State frame = frame_of({{resting + offset, 0.012, 1}});
@@ -156,6 +178,7 @@ FilmedScene seen_from_lid_height(Container::Shape shape, double above) {
     FilmedScene scene = level_box();
     scene.container.shape = shape;
     scene.drive.amplitude = 0.02;
+    scene.film.look.shadows = scene.film.look.occlusion = false;  // walls seen through glass
     double low = -20, high = 40;
     for (int i = 0; i < 60; ++i) {
         scene.film.camera.elevation = 0.5 * (low + high);

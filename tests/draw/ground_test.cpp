@@ -23,7 +23,8 @@ FilmedScene box_on_ground(const Vec3& direction, double exaggerate) {
     return scene;
 }
 
-// Where the ground takes more than half of the plate's shadow, along y: its middle and its width, m.
+// Where the ground takes more than three quarters of the plate's shadow, which walls do not reach, along y:
+// its middle and its width, m.
 struct Shadow {
     double middle, width, cell;
 };
@@ -36,7 +37,7 @@ Shadow shadow_of_plate(const FilmedScene& scene, const BodyPose& floor) {
     double first = 1e9, last = -1e9;
     for (int j = 0; j < ShadowMap::kSide; ++j)
         for (int i = 0; i < ShadowMap::kSide; ++i) {
-            if (map.cells()[static_cast<std::size_t>(j * ShadowMap::kSide + i)] < 0.5f) continue;
+            if (map.cells()[static_cast<std::size_t>(j * ShadowMap::kSide + i)] < 0.75f) continue;
             first = std::min(first, map.low().y() + j * cell);
             last = std::max(last, map.low().y() + (j + 1) * cell);
         }
@@ -151,31 +152,35 @@ TEST(Ground, IsLevelForTheCamera) {
     EXPECT_NEAR((map.in_lab({0, 0, 1}) - scene.film.camera.up).norm(), 0, 1e-12);
 }
 
-// Ground and backdrop have two tones, and there is nothing of them at the rim, beside the words.
-TEST(Ground, GoesOverIntoTheBackdropAndEndsInsideTheRim) {
+// Ground and backdrop have two tones, the same along each row of the picture, also below the words.
+TEST(Ground, GoesOverIntoTheBackdrop) {
     FilmedScene scene = box_on_ground({0, 0, 1}, 1);
     scene.film.width = 640, scene.film.height = 360;
     const Palette palette = palette_of(scene.film);
-    const Rectangle port{0, 0, 640, 360};
+    const Rectangle port{100, 0, 440, 360};
     Ground ground(scene, palette, port);
     View view = view_of(scene);
     view.port = port;
+    ground.stand(view);
     ground.update(frame_of({}), view);
-    std::vector<std::vector<std::uint32_t>> rows(360, std::vector<std::uint32_t>(640));
+    std::vector<std::vector<std::uint32_t>> rows(360, std::vector<std::uint32_t>(440));
     for (int y = 0; y < 360; ++y) ground.paint(y, rows[static_cast<std::size_t>(y)].data());
     const auto level = [&](int x, int y) {
         return rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] & 255;
     };
-    for (int y = 0; y < 360; ++y) EXPECT_NEAR(level(0, y), 255, 1) << y;
-    for (int x = 0; x < 640; x += 20) {
-        EXPECT_NEAR(level(x, 0), 255, 1) << x;
-        EXPECT_NEAR(level(x, 359), 255, 1) << x;
-    }
+    Picture words(640, 360);
+    std::fill(words.rgba.begin(), words.rgba.end(), std::uint8_t{255});
+    words.pixel(20, 300)[0] = 30;  // ink
+    ground.tint({0, 0, 100, 360}, words);
+    for (int y = 0; y < 360; y += 7) EXPECT_EQ(words.pixel(10, y)[0], level(0, y)) << y;
+    EXPECT_LT(words.pixel(20, 300)[0], 30);
+    EXPECT_EQ(words.pixel(200, 300)[0], 255);  // not in the part
+    EXPECT_GT(level(5, 0), 250);
     int step = 0;
     for (int y = 40; y + 20 < 320; ++y)
-        step = std::max(step, static_cast<int>(level(100, y)) - static_cast<int>(level(100, y + 20)));
-    EXPECT_GE(step, 3);                          // the bend
-    EXPECT_LT(level(100, 270), level(100, 40));  // the ground is darker than the backdrop
+        step = std::max(step, static_cast<int>(level(5, y)) - static_cast<int>(level(5, y + 20)));
+    EXPECT_GE(step, 3);                      // the bend
+    EXPECT_LT(level(5, 270), level(5, 40));  // the ground is darker than the backdrop
 }
 
 }  // namespace

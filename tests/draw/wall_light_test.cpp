@@ -64,7 +64,7 @@ Point seen_on_back_wall(int x, int y) {
 double lamp_seen(const std::vector<ViewSphere>& bed, const Point& from, const Lamp& lamp) {
     const Point key(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]);
     const Point u = key.unitOrthogonal(), v = key.cross(u);
-    constexpr int kRays = 400;
+    constexpr int kRays = 200;
     int free = 0;
     for (int k = 0; k < kRays; ++k) {
         const float out = lamp.spread * std::sqrt((static_cast<float>(k) + 0.5f) / kRays),
@@ -87,8 +87,8 @@ TEST(WallLight, AShadowEndsWhereTheLampIsSeen) {
     EXPECT_NEAR(lamp_seen(bed, seen_on_back_wall(kWidth - 40, 20), lamp), 1, 1e-9);
     double worst = 0, sum = 0, darkest = 1;
     int dark = 0, walls = 0;
-    for (int y = 30; y < kHeight - 30; ++y)
-        for (int x = 40; x < kWidth - 40; ++x) {
+    for (int y = 30; y < kHeight - 30; y += 2)
+        for (int x = 40; x < kWidth - 40; x += 2) {
             if (!lit.shows_wall(x, y)) continue;
             const double seen = lamp_seen(bed, seen_on_back_wall(x, y), lamp);
             const double expected = open * std::sqrt((ambient + falls * seen) / (ambient + falls));
@@ -97,7 +97,7 @@ TEST(WallLight, AShadowEndsWhereTheLampIsSeen) {
             darkest = std::min(darkest, lit.share(x, y));
             dark += seen < 0.5, ++walls;
         }
-    EXPECT_GT(dark, 150);
+    EXPECT_GT(dark, 40);
     EXPECT_LT(darkest, 0.8 * open);
     EXPECT_LT(worst, 0.03);
     EXPECT_LT(sum / walls, 0.001);

@@ -56,6 +56,15 @@ TEST(Look, UsualRangesComeFromTheDrive) {
     EXPECT_NEAR(colour_of({"film.colour.by=displacement", "drive.g_level=0.01"}).range[1], 0.005, 1e-12);
 }
 
+TEST(Look, AllWallsMayBeGlass) {
+    const FilmedScene clear = read_text(wedge_text, {"film.walls.glass=true"});
+    EXPECT_TRUE(clear.film.look.walls.clear);
+    EXPECT_TRUE(
+        read_filmed_scene_text(resolved_scene(clear, make_plan(clear)), "scene.toml").film.look.walls.clear);
+    EXPECT_FALSE(read_text(wedge_text, {"film.walls.glass=false"}).film.look.walls.clear);
+    expect_complaint({"film.walls.glass=[\"none\"]"}, "names the mesh \"none\"");
+}
+
 // A few lively layers are thrown faster than a deep bed, and grains that leave fall faster than they are
 // thrown.
 TEST(Look, UsualSpeedsFollowTheBed) {

@@ -20,7 +20,8 @@ using Json = nlohmann::ordered_json;
 
 // A number as a text may give it, which a unit may follow: "2.5e3 kg/m3".
 constexpr const char* number_pattern = R"(^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*$)";
-constexpr const char* quantity_pattern = R"(^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?(\s+\S.*|[^\s0-9.,].*)$)";
+constexpr const char* quantity_pattern =
+    R"(^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?(\s+\S.*|[^\s0-9.,].*)$)";
 
 // A table of a scene file, and the key whose value stands in its place if there is one (outlet = "closed").
 struct Table {
@@ -133,6 +134,8 @@ Json value_schema(const Key& key) {
             return list_of(any_of({number, text}), 2, 2);
         case KeyKind::name_list:
             return list_of(word_of_choices(key));
+        case KeyKind::names_or_all:
+            return any_of({Json{{"type", "boolean"}}, list_of(text)});
         case KeyKind::integer_list:
             return list_of(whole_number(key.range));
         case KeyKind::seeds:

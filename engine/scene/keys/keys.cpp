@@ -69,6 +69,8 @@ std::string value_words(const Key& key) {
         case KeyKind::name_list:
             return key.choices.empty() ? std::string("list of names")
                                        : fmt::format("list of \"{}\"", fmt::join(key.choices, "\", \""));
+        case KeyKind::names_or_all:
+            return "list of names, or true";
         case KeyKind::integer_list:
             return "list of whole numbers";
         case KeyKind::seeds:
@@ -116,6 +118,7 @@ std::string Key::example() const {
     if (kind == KeyKind::interval) return "[0, 1]";
     if (kind == KeyKind::name_list)
         return choices.size() < 2 ? "[\"small\"]" : fmt::format("[\"{}\", \"{}\"]", choices[0], choices[1]);
+    if (kind == KeyKind::names_or_all) return "true";
     if (kind == KeyKind::integer_list) return "[3, 14]";
     if (kind == KeyKind::seeds) return "3";
     if (kind == KeyKind::value) return "\"2 mm\"";

@@ -32,6 +32,7 @@ enum class KeyKind {
     speed_table,   // [[speed, number], ...]
     interval,      // [low, high] of a quantity that another key names
     name_list,     // ["small", ...]
+    names_or_all,  // ["small", ...] or true
     integer_list,  // [3, 14, ...]
     seeds,         // a whole number or a list of them
     value,         // a number, or text that may be a quantity

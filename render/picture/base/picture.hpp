@@ -100,16 +100,22 @@ struct Palette {
     Colour wall_force;  // arrows at walls
 };
 
-inline Palette make_palette(const Colour& background) {
+// A ground is a little of the walls' colour on the background; at most this share.
+constexpr double kMostGround = 0.17, kMostGroundInTheDark = 0.29;
+
+// ground: whether words may also stand on the ground.
+inline Palette make_palette(const Colour& background, bool ground = false) {
     const bool light = luminance(background) > 0.18;  // then dark ink has more contrast than light ink
     Palette palette;
     palette.background = in_bytes(background);
     palette.ink = light ? Colour{0.11, 0.13, 0.16} : Colour{0.94, 0.95, 0.97};
-    // Ink as faint as can still be read. On middle tones it is hardly fainter.
-    double faint = light ? 0.28 : 0.22;
-    while (faint > 0 && contrast(mix(palette.ink, background, faint), background) < 4.5) faint -= 0.02;
-    palette.faint_ink = mix(palette.ink, background, std::max(0.0, faint));
     palette.solid = mix(background, light ? Colour{0.36, 0.42, 0.50} : Colour{0.70, 0.76, 0.84}, 0.62);
+    // Ink as faint as can still be read. On middle tones it is hardly fainter.
+    const double most = ground ? (light ? kMostGround : kMostGroundInTheDark) : 0;
+    const Colour below = mix(background, palette.solid, most);
+    double faint = light ? 0.28 : 0.22;
+    while (faint > 0 && contrast(mix(palette.ink, background, faint), below) < 4.5) faint -= 0.02;
+    palette.faint_ink = mix(palette.ink, background, std::max(0.0, faint));
     palette.force = light ? Colour{0.40, 0.18, 0.55} : Colour{0.78, 0.62, 1.0};
     palette.wall_force = light ? Colour{0.0, 0.38, 0.36} : Colour{0.36, 0.86, 0.76};
     palette.accent = light ? Colour{0.72, 0.16, 0.10} : Colour{1.0, 0.55, 0.42};
@@ -118,7 +124,7 @@ inline Palette make_palette(const Colour& background) {
 
 // In a film without a background no words are faint: grey words on a halo may be lost on what lies below.
 inline Palette palette_of(const Film& film) {
-    Palette palette = make_palette(film.background);
+    Palette palette = make_palette(film.background, film.look.ground && !film.transparent);
     if (film.transparent) palette.faint_ink = palette.ink;
     return palette;
 }

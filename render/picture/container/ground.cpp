@@ -15,11 +15,12 @@ namespace {
 constexpr int kSide = ShadowMap::kSide;
 
 // Shares of the walls' colour in ground and backdrop, in front and where they meet.
-constexpr double kGround = 0.17, kGroundFar = 0.11, kBackdrop = 0.045;
-constexpr double kInTheDark = 1.7;     // times as much of it on a dark background
+constexpr double kGroundFar = 0.11, kBackdrop = 0.045;
 constexpr double kBehind = 1.6;        // where the ground bends up, in sizes of the scene behind its middle
 constexpr double kBend = 0.035;        // half the height of the bend, of the picture's height
 constexpr double kBackdropEnds = 0.5;  // of the picture's height, above the bend
+
+constexpr double kSteep = 0.02;  // sine of an angle between camera and level, or camera and plumb line
 
 float rim(int cell) {
     const int inside = std::min(2 * cell + 1, 2 * (kSide - cell) - 1);  // half cells
@@ -53,9 +54,10 @@ Ground::Ground(const FilmedScene& scene, const Palette& palette, const Rectangle
       tint_(palette.solid),
       middle_(extent_of(scene).middle()),
       size_(extent_of(scene).size().norm()),
+      port_(port),
       width_(port.width),
       height_(port.height),
-      tone_(static_cast<std::size_t>(port.height)),
+      tone_(static_cast<std::size_t>(scene.film.height)),
       dark_(kStride * kStride) {
     for (int cell = 0; cell < kSide; ++cell) rim_.push_back(rim(cell));
     for (int x = 0; x < width_; ++x) across_.push_back(margin(x, width_, height_));
@@ -67,8 +69,6 @@ void Ground::update(const State& frame, const View& view) {
     map_.cast(frame, lamp.to_key[0] * view.right + lamp.to_key[1] * view.up + lamp.to_key[2] * view.forward);
     darken();
     part_ = where();
-    const Vec3 to_middle = map_.on_level(middle_ - view.eye);
-    set_tones(to_middle.head<2>().norm() + kBehind * size_);
 }
 
 // How much a line of sight through a row rises, for one unit along the camera's direction.
@@ -78,32 +78,56 @@ double Ground::rise(double y) const {
     return view_.forward.dot(up) + (0.5 * height_ - y) / view_.focal * view_.up.dot(up);
 }
 
-// distance: m, level, from the eye to the place where the ground bends up.
-void Ground::set_tones(double distance) {
-    const double above = map_.on_level(view_.eye).z() - map_.height();
-    // The row of the bend. A level camera with parallel lines of sight sees the ground as a line.
-    const double strength = luminance(background_) > 0.18 ? 1 : kInTheDark;
-    const double slope = view_.forward.dot(map_.in_lab({0, 0, 1})), aside = std::sqrt(1 - slope * slope);
-    double row = height_;
-    if (above > 0 && !view_.orthographic) {
-        const Vec3 way =
-            distance * map_.in_lab(map_.on_level(view_.forward).cwiseProduct(Vec3(1, 1, 0))).normalized() -
-            above * map_.in_lab({0, 0, 1});
-        const double ahead = way.dot(view_.forward);
-        row = ahead > 0 ? 0.5 * height_ - view_.focal * way.dot(view_.up) / ahead : -1e9;
-    } else if (view_.orthographic) {
-        const Vec3 at = middle_ + kBehind * size_ * view_.forward;
-        const Vec3 foot = at + (map_.height() - map_.on_level(at).z()) * map_.in_lab({0, 0, 1});
-        row = aside > 0.02 ? view_.project(foot).y() : height_;
-    }
-    for (int y = 0; y < height_; ++y) {
-        const double below = (y + 0.5 - row) / height_;  // in heights of the picture
-        const double ground = kGroundFar + (kGround - kGroundFar) * smooth(below / 0.4);
+// The row of the picture in which the ground bends up; below the picture where the eye sees no ground. A
+// level camera with parallel lines of sight sees the ground as a line.
+double Ground::bend() const {
+    const Vec3 up = map_.in_lab({0, 0, 1});
+    const Vec3 level = view_.forward - view_.forward.dot(up) * up;
+    const double above = map_.on_level(view_.eye).z() - map_.height(), nowhere = 1e9;
+    if (above <= 0 || level.norm() < kSteep) return above <= 0 ? nowhere : -nowhere;
+    const Vec3 ahead = level.normalized();
+    Vec3 foot = middle_ + kBehind * size_ * ahead;
+    foot += (map_.height() - foot.dot(up)) * up;
+    if (view_.orthographic && view_.forward.dot(up) > -kSteep) foot -= kBehind * size_ * ahead;  // edge-on
+    if (view_.orthographic) return port_.y + view_.project(foot).y();
+    return view_.to_view(foot).z() > 0 ? port_.y + view_.project(foot).y() : -nowhere;
+}
+
+void Ground::stand(const View& view) {
+    view_ = view;
+    const double strength = luminance(background_) > 0.18 ? 1 : kMostGroundInTheDark / kMostGround;
+    const double row = bend(), height = static_cast<double>(tone_.size());
+    for (std::size_t y = 0; y < tone_.size(); ++y) {
+        const double below = (static_cast<double>(y) + 0.5 - row) / height;  // in heights of the picture
+        const double ground = kGroundFar + (kMostGround - kGroundFar) * smooth(below / 0.4);
         const double backdrop = kBackdrop * smooth(1 + below / kBackdropEnds);
         const double share = smooth(0.5 + 0.5 * below / kBend);
-        tone_[static_cast<std::size_t>(y)] =
-            static_cast<float>(strength * (backdrop + (ground - backdrop) * share)) *
-            margin(y, height_, height_);
+        tone_[y] = strength * (backdrop + (ground - backdrop) * share);
+    }
+}
+
+// What is lighter than the ink takes part in the tint, so that the edges of letters are as smooth as before.
+void Ground::tint(const Rectangle& part, Picture& picture) const {
+    const bool light = luminance(background_) > 0.18;
+    const std::array<double, 3> plain{background_.red, background_.green, background_.blue};
+    std::array<std::array<std::uint8_t, 256>, 3> table;
+    std::uint32_t last = 0;
+    for (int y = part.y; y < part.y + part.height; ++y) {
+        const Colour here = mix(background_, tint_, tone_[static_cast<std::size_t>(y)]);
+        if (const std::uint32_t now = packed(here); now != last) {
+            const std::array<double, 3> colour{here.red, here.green, here.blue};
+            for (std::size_t c = 0; c < 3; ++c)
+                for (int v = 0; v < 256; ++v) {
+                    const double value = light ? v * colour[c] / plain[c]
+                                               : v + (255 - v) * (colour[c] - plain[c]) / (1 - plain[c]);
+                    table[c][static_cast<std::size_t>(v)] =
+                        static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+                }
+            last = now;
+        }
+        std::uint8_t* pixel = picture.pixel(part.x, y);
+        for (int x = 0; x < part.width; ++x, pixel += 4)
+            for (std::size_t c = 0; c < 3; ++c) pixel[c] = table[c][pixel[c]];
     }
 }
 
@@ -169,12 +193,8 @@ Vec3 Ground::seen_at(double x, double y) const {
 }
 
 void Ground::paint(int y, std::uint32_t* pixels) const {
-    const float tone = tone_[static_cast<std::size_t>(y)];
-    const std::uint32_t whole = packed(mix(background_, tint_, tone));
-    for (int x = 0; x < width_; ++x) {
-        const float across = across_[static_cast<std::size_t>(x)];
-        pixels[x] = across == 1 ? whole : packed(mix(background_, tint_, tone * across));
-    }
+    std::fill_n(pixels, width_,
+                packed(mix(background_, tint_, tone_[static_cast<std::size_t>(port_.y + y)])));
     shade(y, pixels);
 }
 

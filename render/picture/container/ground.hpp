@@ -15,12 +15,17 @@
 namespace grainreel {
 
 // The ground as the camera sees it, bent up behind the container to a backdrop, as paper is in a studio. Both
-// are a little of the walls' colour on the background's, and fade to it towards the rim of the picture, where
-// the words stand.
+// are a little of the walls' colour on the background's, the same along each row of the whole picture, also
+// below the words.
 class Ground {
   public:
-    // The scene must have a container.
+    // The scene must have a container or meshes.
     Ground(const FilmedScene& scene, const Palette& palette, const Rectangle& port);
+
+    // Finds the rows of ground and backdrop. Call it first, and again when the camera has moved.
+    void stand(const View& view);
+    // Tints a part of the picture that has words on the plain background.
+    void tint(const Rectangle& part, Picture& picture) const;
 
     void update(const State& frame, const View& view);
 
@@ -33,7 +38,7 @@ class Ground {
     Vec3 seen_at(double x, double y) const;
     Rectangle where() const;
     double rise(double y) const;
-    void set_tones(double distance);
+    double bend() const;
     void shade(int y, std::uint32_t* pixels) const;
 
     static constexpr int kStride = ShadowMap::kSide + 2;
@@ -42,10 +47,11 @@ class Ground {
     const Colour background_, tint_;
     const Vec3 middle_;
     const double size_;  // m, of what the camera looks at
-    const int width_, height_;
+    const Rectangle port_;
+    const int width_, height_;   // of the port
     std::vector<float> rim_;     // shares by which the shadow fades towards the rim of the map
-    std::vector<float> across_;  // shares by which all fades towards the picture's left and right
-    std::vector<float> tone_;    // for each row: share of the tint
+    std::vector<float> across_;  // shares by which it fades towards the port's left and right
+    std::vector<double> tone_;   // for each row of the picture: share of the tint
     std::vector<float> dark_;  // strength of the shadow, 0 to 255: the map's cells and a clear one all around
     Rectangle dark_cells_;     // cells of the map; all cells outside are clear
     View view_;

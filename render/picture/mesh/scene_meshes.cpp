@@ -47,9 +47,9 @@ double area_of(const MeshShape& shape, std::size_t t) {
     return 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
 }
 
-// Whether a triangle is several times as long as it is high.
+// Whether a triangle is more than twice as long as it is high.
 bool is_thin(const MeshShape& shape, std::size_t t) {
-    constexpr double kThin = 4;
+    constexpr double kThin = 2.5;  // a square's half has 2
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k)
         longest =
@@ -90,7 +90,7 @@ std::vector<double> areas_of(const MeshShape& shape) {
 // Files cut discs and tubes into long thin triangles. What grains do to a small part of one is spread over
 // its whole length, which would show as spikes. So thin triangles share their values with their neighbours.
 std::vector<double> SceneMeshes::shared(std::size_t mesh, std::vector<double> values) const {
-    constexpr int kTimes = 4;
+    constexpr int kTimes = 8;
     const auto& neighbours = neighbours_[mesh];
     const std::vector<double>& areas = areas_[mesh];
     for (int time = 0; time < kTimes; ++time) {

@@ -110,6 +110,7 @@ struct LitPoints {
 struct CornerPlane {
     float x, y, z, d;  // unit normal towards the grains, m from the origin of the points
     float wall, container;
+    float taken;  // how much of it is there, 0 to 1, while a wall turns from glass to solid
 };
 
 // A row of pixels that show walls. Results are the shares of their colour that are left, 0 to 1.

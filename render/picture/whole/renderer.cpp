@@ -123,7 +123,8 @@ struct Renderer::Impl {
     std::optional<WallLight> wall_light, mesh_light;  // of container and free walls, and of solid meshes
     std::optional<SpherePainter> ghost_painter;
     std::optional<Exposure> exposure;
-    bool started = false;  // whether the film has begun, so that start heights are known
+    bool ground_stands = false;  // whether the ground knows the camera
+    bool started = false;        // whether the film has begun, so that start heights are known
     ContainerShapes shapes;
     View eye;
     std::vector<PointForce> point_forces;
@@ -158,6 +159,8 @@ void Renderer::Impl::draw(const Shot& frame, const std::string& playback, double
     const View view = path.at(film_time);
     if (!started) start_from(frame);
     overlay.write(words, frame, playback, view);
+    if (ground && (path.moves() || !ground_stands)) ground->stand(view);
+    ground_stands = true;
     copy_words(into);
     meshes.colour_by(frame);
     watch.lap(&DrawTimes::overlay);
@@ -191,21 +194,29 @@ void Renderer::Impl::point_out(PointedOut what) {
 
 // Copies the words into a picture. One that has been drawn into before already has most of them.
 void Renderer::Impl::copy_words(Picture& into) const {
+    const auto copy = [this](const Picture& from, const Rectangle& part, Picture& to) {
+        grainreel::copy(from, part, to);
+        if (ground) ground->tint(part, to);
+    };
     const bool fits = into.width == words.width && into.height == words.height;
-    if (!fits) into = words;
+    if (!fits) {
+        into = words;
+        if (ground) ground->tint({0, 0, words.width, words.height}, into);
+    }
     if (layout.plates) {
         copy(words, layout.caption, into);
         into.still = 0;
         return;
     }
-    if (fits && into.still == overlay.still()) {
+    const bool may_stay = !(ground && path.moves());  // the ground is another one where the camera moves
+    if (fits && may_stay && into.still == overlay.still()) {
         for (const Rectangle& part : overlay.moving()) copy(words, part, into);
         return;
     }
     copy(words, layout.first, into);
     copy(words, layout.second, into);
     copy(words, layout.caption, into);
-    into.still = overlay.still();
+    into.still = may_stay ? overlay.still() : 0;
     into.moving = overlay.moving();
     into.moving.push_back(port);
 }

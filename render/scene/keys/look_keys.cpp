@@ -111,7 +111,7 @@ std::vector<std::string> mesh_names(Document& document, const Scene& scene, cons
 // `true`, or the names of meshes.
 BoundKey<FilmWalls> glass_key() {
     return bound_by<FilmWalls>(
-        entry("glass", KeyKind::name_list, note("by their shape"),
+        entry("glass", KeyKind::names_or_all, note("by their shape"),
               "Meshes that are glass from outside and solid from within; or true: all walls, those of the "
               "container too, are glass from both sides."),
         [](Document& document, const Scene& scene, const std::string& path, FilmWalls& into) {

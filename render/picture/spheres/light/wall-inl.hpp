@@ -82,7 +82,7 @@ HWY_INLINE F corner_openness(const SurfacePoint& point, F wall, F container, con
         const auto other = differ(wall == F(first.wall), container == container);
         const F d = larger(nearest, F(0));
         const F away = d * inverse_root(multiply_add(d, d, F(shade.corner_reach * shade.corner_reach)));
-        const F taken = F(0.5 * kTaken) * (F(1) - away);
+        const F taken = F(0.5f * kTaken * first.taken) * (F(1) - away);
         open *= select(other & (container == F(first.container)), F(1) - taken, F(1));
     }
     return open;

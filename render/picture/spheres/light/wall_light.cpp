@@ -9,8 +9,6 @@
 namespace grainreel {
 namespace {
 
-constexpr double kHides = 0.5;  // opacity from which on a face hides others
-
 // What is left of the colour of a wall that is turned like this, beside a floor. Light differs more than
 // that; walls are drawn in one colour and shall not seem to be of several.
 float tone_of(const Lamp& lamp, const Eigen::Vector3f& normal) {
@@ -47,13 +45,13 @@ void WallLight::set_faces(const Sight& sight, const Lamp& lamp, const std::vecto
     faces_.clear();
     corners_.clear();
     for (const WallFace& face : faces) {
-        if (face.before || (face.taken <= 0 && face.opacity < kHides)) continue;
+        if (face.before || (face.taken <= 0 && face.opacity <= 0)) continue;
         Face made{};
         made.outline = projected(sight, face.corners);
         if (made.outline.size() < 3 || faces_.size() >= 65534) continue;
         made.plane.normal = face.inward.cast<float>();
         made.plane.distance = static_cast<float>(face.inward.dot(face.corners[0]));
-        made.taken = static_cast<float>(face.taken);
+        made.taken = static_cast<float>(face.taken), made.opacity = static_cast<float>(face.opacity);
         made.wall = static_cast<float>(face.wall), made.container = static_cast<float>(face.container);
         made.tone = lamp.shadows && face.taken > 0 ? tone_of(lamp, made.plane.normal) : 1;
         double low = 1e9, high = -1e9;
@@ -65,7 +63,8 @@ void WallLight::set_faces(const Sight& sight, const Lamp& lamp, const std::vecto
         made.y0 = row(low), made.y1 = row(high + 1);
         if (face.taken > 0) {
             const Eigen::Vector3f& n = made.plane.normal;
-            corners_.push_back({n.x(), n.y(), n.z(), made.plane.distance, made.wall, made.container});
+            corners_.push_back(
+                {n.x(), n.y(), n.z(), made.plane.distance, made.wall, made.container, made.taken});
         }
         faces_.push_back(std::move(made));
     }
@@ -74,10 +73,14 @@ void WallLight::set_faces(const Sight& sight, const Lamp& lamp, const std::vecto
     });
 }
 
-// Writes which face each pixel of a row shows. Faces are convex, and later ones hide earlier ones.
+// Writes which faces each pixel of a row shows. Faces are convex, and later ones hide earlier ones, as far as
+// they are opaque: walls fade into each other while the camera moves.
 void WallLight::number_row(int y) {
-    std::uint16_t* numbers = number_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-    std::fill_n(numbers, width_, std::uint16_t{0});
+    const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+    std::uint16_t *upper = numbers_[0].face.data() + begin, *under = numbers_[1].face.data() + begin;
+    std::uint8_t *bare = numbers_[0].bare.data() + begin, *bare_under = numbers_[1].bare.data() + begin;
+    std::fill_n(upper, width_, std::uint16_t{0});
+    std::fill_n(under, width_, std::uint16_t{0});
     const double middle = y + 0.5;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         const Face& face = faces_[f];
@@ -92,34 +95,62 @@ void WallLight::number_row(int y) {
         const auto pixel = [&](double x) {
             return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(width_)));
         };
-        if (low < high)
-            std::fill(numbers + pixel(low), numbers + pixel(high),
-                      face.taken > 0 ? static_cast<std::uint16_t>(f + 1) : std::uint16_t{0});
+        const auto left = static_cast<std::uint32_t>(std::lround(255 * (1 - face.opacity)));
+        for (int x = low < high ? pixel(low) : width_; x < (low < high ? pixel(high) : 0); ++x) {
+            bare[x] = static_cast<std::uint8_t>(bare[x] * left / 255);
+            bare_under[x] = static_cast<std::uint8_t>(bare_under[x] * left / 255);
+            if (bare_under[x] == 0) under[x] = 0;
+            if (face.taken > 0) {
+                under[x] = bare[x] == 0 ? std::uint16_t{0} : upper[x];
+                bare_under[x] = bare[x];
+                upper[x] = static_cast<std::uint16_t>(f + 1);
+                bare[x] = 255;
+            } else if (bare[x] == 0) {
+                upper[x] = 0;
+            }
+        }
     }
 }
 
-bool WallLight::fill_from_faces(const Sight& sight, int x, int y, WallRow& row) const {
-    const std::uint16_t* numbers =
-        number_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + x;
+namespace {
+
+// Whether any of up to 16 numbers is not 0.
+template <class Number>
+bool any_of_row(const Number* numbers, int count) {
+    Number any = 0;
+    for (int i = 0; i < count; ++i) any |= numbers[i];
+    return any != 0;
+}
+
+}  // namespace
+
+void WallLight::fill_from_faces(const Numbers& of, const Sight& sight, int x, int y, WallRow& row) const {
+    const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + x;
+    const std::uint16_t* numbers = of.face.data() + begin;
+    const std::uint8_t* bare = of.bare.data() + begin;
     const int count = std::min(kWallRow, width_ - x);
-    bool any = false;
-    for (int i = 0; i < kWallRow; ++i) {
+    const float v = sight.slope_y(row.y);
+    for (int i = 0; i < kWallRow;) {
         const int number = i < count ? numbers[i] : 0;
-        row.taken[i] = 0, row.away[i] = 1;
-        if (number == 0) continue;
-        any = true;
+        int end = i + 1;
+        while (end < kWallRow && (end < count ? numbers[end] : 0) == number) ++end;
+        if (number == 0) {
+            for (; i < end; ++i) row.taken[i] = 0, row.away[i] = 1;
+            continue;
+        }
         const Face& face = faces_[static_cast<std::size_t>(number - 1)];
-        const Eigen::Vector3f& n = face.plane.normal;
-        const float u = sight.slope_x(static_cast<float>(x + i) + 0.5f),
-                    v = sight.slope_y(static_cast<float>(y) + 0.5f);
-        const float across = n.x() * u + n.y() * v;
-        row.away[i] = sight.orthographic ? (face.plane.distance - across) / n.z()
-                                         : face.plane.distance / (across + n.z());
-        for (int c = 0; c < 3; ++c) row.normal[c][i] = n[c];
-        row.taken[i] = face.taken, row.tone[i] = face.tone;
-        row.wall[i] = face.wall, row.container[i] = face.container;
+        const Eigen::Vector3f n = face.plane.normal;
+        const float distance = face.plane.distance, taken = face.taken / 255, tone = face.tone;
+        const float wall = face.wall, container = face.container;
+        for (int k = i; k < end; ++k) {
+            const float across = n.x() * sight.slope_x(row.x + static_cast<float>(k)) + n.y() * v;
+            row.away[k] = sight.orthographic ? (distance - across) / n.z() : distance / (across + n.z());
+            row.normal[0][k] = n.x(), row.normal[1][k] = n.y(), row.normal[2][k] = n.z();
+            row.taken[k] = taken * bare[k];
+            row.tone[k] = tone, row.wall[k] = wall, row.container[k] = container;
+        }
+        i = end;
     }
-    return any;
 }
 
 // Whether grains hide the pixels and all their neighbours.
@@ -134,18 +165,31 @@ bool WallLight::hidden(const Visibility& seen, int x, int y, int count) const {
 }
 
 // A sphere around the points of a tile.
-ViewSphere WallLight::around(const Sight& sight, const Worker& worker, int rows) {
+ViewSphere WallLight::around(const Sight& sight, Worker& worker, int rows) {
+    worker.container_low = 1e9f, worker.container_high = -1e9f;
     Eigen::Array3f low(1e30f, 1e30f, 1e30f), high = -low;
     for (int r = 0; r < rows; ++r) {
         if (!worker.any[static_cast<std::size_t>(r)]) continue;
         const WallRow& row = worker.rows[static_cast<std::size_t>(r)];
+        int first = kWallRow, last = 0;
+        float nearest = 1e30f, farthest = -1e30f;
         for (int i = 0; i < kWallRow; ++i) {
-            if (row.taken[i] <= 0) continue;
-            const float scale = sight.orthographic ? 1 : row.away[i];
-            const Eigen::Array3f at(sight.slope_x(row.x + static_cast<float>(i)) * scale,
-                                    sight.slope_y(row.y) * scale, row.away[i]);
-            low = low.min(at), high = high.max(at);
+            const bool seen = row.taken[i] > 0;
+            first = seen && i < first ? i : first, last = seen ? i : last;
+            nearest = seen && row.away[i] < nearest ? row.away[i] : nearest;
+            farthest = seen && row.away[i] > farthest ? row.away[i] : farthest;
+            if (!seen) continue;
+            worker.container_low = std::min(worker.container_low, row.container[i]);
+            worker.container_high = std::max(worker.container_high, row.container[i]);
         }
+        if (first > last) continue;
+        for (const int i : {first, last})
+            for (const float away : {nearest, farthest}) {
+                const float scale = sight.orthographic ? 1 : away;
+                const Eigen::Array3f at(sight.slope_x(row.x + static_cast<float>(i)) * scale,
+                                        sight.slope_y(row.y) * scale, away);
+                low = low.min(at), high = high.max(at);
+            }
     }
     const Eigen::Array3f middle = 0.5f * (low + high);
     return {middle.x(), middle.y(), middle.z(), 0.5f * (high - low).matrix().norm()};
@@ -169,6 +213,16 @@ float square(const NearGrain& n) {
 
 }  // namespace
 
+// Whether a grain lies behind a wall of the container that the tile shows. Such a wall keeps its light.
+bool WallLight::outside(const NearGrain& near, const Worker& worker) {
+    if (worker.container_low != worker.container_high) return false;
+    for (const CornerPlane& p : worker.corners)
+        if (p.container == worker.container_low &&
+            p.x * near.x + p.y * near.y + p.z * near.z - p.d < -near.radius)
+            return true;
+    return false;
+}
+
 void WallLight::find_occluders(const LightTakers& by, const ViewSphere& tile, Worker& worker) {
     worker.occluders.clear();
     if (!by.lamp.occlusion || by.grid.empty() || !by.grid.may_reach(tile)) return;
@@ -178,7 +232,8 @@ void WallLight::find_occluders(const LightTakers& by, const ViewSphere& tile, Wo
         const ViewSphere& grain = by.spheres[j];
         const NearGrain near = from_origin(tile, grain, by.cut.share(grain));
         const float reach = tile.radius + (1 + Neighbourhood::kWallReach) * grain.radius;
-        if (near.weight > 0 && square(near) < reach * reach) worker.occluders.push_back(near);
+        if (near.weight > 0 && square(near) < reach * reach && !outside(near, worker))
+            worker.occluders.push_back(near);
     });
 }
 
@@ -200,18 +255,20 @@ void WallLight::find_casters(const LightTakers& by, const ViewSphere& tile, Work
         const float along = ahead - tile.radius;
         const float touch = tile.radius + 1.02f * grain.radius + by.lamp.spread * ahead;
         if (square(near) - along * along > touch * touch) return;
+        if (outside(near, worker)) return;
         worker.casters.push_back(near);
         covered += std::min(near.square, all);
     };
     by.grid.towards_lamp(tile, by.lamp.spread, visit, [&] { return covered > kBlack * all; });
 }
 
-void WallLight::light_tile(const Job& job, int x, int y0, int rows, Worker& worker) {
+void WallLight::light_tile(const Job& job, int x, int y0, int rows, bool first, Worker& worker) {
     const ViewSphere tile = around(job.by.sight, worker, rows);
-    find_occluders(job.by, tile, worker);
-    find_casters(job.by, tile, worker);
+    if (worker.container_low > worker.container_high) return;
     worker.corners = corners_;
     for (CornerPlane& p : worker.corners) p.d -= p.x * tile.x + p.y * tile.y + p.z * tile.z;
+    find_occluders(job.by, tile, worker);
+    find_casters(job.by, tile, worker);
     const WallShade shade{{tile.x, tile.y, tile.z},
                           {worker.occluders.data(), static_cast<int>(worker.occluders.size())},
                           {worker.casters.data(), static_cast<int>(worker.casters.size())},
@@ -225,16 +282,18 @@ void WallLight::light_tile(const Job& job, int x, int y0, int rows, Worker& work
         sphere_kernels().light_wall(job.by.sight, job.by.lamp, shade, row);
         std::uint8_t* shares =
             shares_.data() + static_cast<std::size_t>(y0 + r) * static_cast<std::size_t>(width_) + x;
-        for (int i = 0; i < count; ++i) shares[i] = static_cast<std::uint8_t>(255 * row.share[i] + 0.5f);
+        for (int i = 0; i < count; ++i)
+            shares[i] = static_cast<std::uint8_t>((first ? 255.0f : shares[i]) * row.share[i] + 0.5f);
         Layer::Span& span = spans_[static_cast<std::size_t>(y0 + r)];
         span = span.begin < span.end ? Layer::Span{std::min(span.begin, x), std::max(span.end, x + count)}
                                      : Layer::Span{x, x + count};
     }
 }
 
-// fill(x, y, row): what a row of pixels shows; returns whether it shows any wall.
-template <class Fill>
-void WallLight::light(const Job& job, Team& team, const Fill& fill) {
+// shows(layer, x, y, count): whether pixels from (x, y) on show any wall. fill(layer, x, y, row): what they
+// show.
+template <class Shows, class Fill>
+void WallLight::light(const Job& job, int layers, Team& team, const Shows& shows, const Fill& fill) {
     workers_.resize(static_cast<std::size_t>(team.size()));
     const int bands = (height_ + kTile - 1) / kTile;
     std::atomic<int> next{0};
@@ -250,18 +309,22 @@ void WallLight::light(const Job& job, Team& team, const Fill& fill) {
                           std::uint8_t{255});
                 span = {};
             }
-            for (int x = 0; x < width_; x += kTile) {
-                bool any = false;
-                for (int r = 0; r < rows; ++r) {
-                    WallRow& row = worker.rows[static_cast<std::size_t>(r)];
-                    row.x = static_cast<float>(x) + 0.5f, row.y = static_cast<float>(y0 + r) + 0.5f;
-                    const bool seen =
-                        !hidden(job.by.seen, x, y0 + r, std::min(kTile, width_ - x)) && fill(x, y0 + r, row);
-                    worker.any[static_cast<std::size_t>(r)] = seen;
-                    any |= seen;
+            for (int x = 0; x < width_; x += kTile)
+                for (int layer = 0; layer < layers; ++layer) {
+                    bool any = false;
+                    const int count = std::min(kTile, width_ - x);
+                    for (int r = 0; r < rows; ++r) {
+                        const bool seen =
+                            shows(layer, x, y0 + r, count) && !hidden(job.by.seen, x, y0 + r, count);
+                        worker.any[static_cast<std::size_t>(r)] = seen;
+                        if (!seen) continue;
+                        WallRow& row = worker.rows[static_cast<std::size_t>(r)];
+                        row.x = static_cast<float>(x) + 0.5f, row.y = static_cast<float>(y0 + r) + 0.5f;
+                        fill(layer, x, y0 + r, row);
+                        any = true;
+                    }
+                    if (any) light_tile(job, x, y0, rows, layer == 0, worker);
                 }
-                if (any) light_tile(job, x, y0, rows, worker);
-            }
         }
     });
 }
@@ -269,11 +332,11 @@ void WallLight::light(const Job& job, Team& team, const Fill& fill) {
 void WallLight::light_faces(const LightTakers& by, const std::vector<WallFace>& faces, float corner_reach,
                             Team& team) {
     const Sight& s = by.sight;
-    const bool same = faces == last_ && !number_.empty() && s.orthographic == last_sight_.orthographic &&
-                      s.focal == last_sight_.focal;
+    const bool same = faces == last_ && !numbers_[0].face.empty() &&
+                      s.orthographic == last_sight_.orthographic && s.focal == last_sight_.focal;
     if (!same) {
         last_ = faces, last_sight_ = s;
-        number_.resize(shares_.size());
+        for (Numbers& of : numbers_) of.face.resize(shares_.size()), of.bare.resize(shares_.size());
         set_faces(s, by.lamp, faces);
     }
     constexpr int kRows = 16;
@@ -283,29 +346,43 @@ void WallLight::light_faces(const LightTakers& by, const std::vector<WallFace>& 
             for (int y; (y = kRows * next.fetch_add(1, std::memory_order_relaxed)) < height_;)
                 for (int row = y; row < std::min(y + kRows, height_); ++row) number_row(row);
         });
-    light({by, corner_reach}, team,
-          [&](int x, int y, WallRow& row) { return fill_from_faces(s, x, y, row); });
+    if (faces_.empty()) {
+        if (!same) std::fill(shares_.begin(), shares_.end(), std::uint8_t{255});
+        std::fill(spans_.begin(), spans_.end(), Layer::Span{});
+        return;
+    }
+    light(
+        {by, corner_reach}, 2, team,
+        [&](int layer, int x, int y, int count) {
+            return any_of_row(numbers_[static_cast<std::size_t>(layer)].face.data() +
+                                  static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + x,
+                              count);
+        },
+        [&](int layer, int x, int y, WallRow& row) {
+            fill_from_faces(numbers_[static_cast<std::size_t>(layer)], s, x, y, row);
+        });
 }
 
 void WallLight::light_meshes(const LightTakers& by, const MeshPixels& meshes, Team& team) {
     corners_.clear();
-    light({by, 0}, team, [&](int x, int y, WallRow& row) {
-        const std::size_t first = static_cast<std::size_t>(y) * meshes.stride + static_cast<std::size_t>(x);
-        const int count = std::min(kWallRow, width_ - x);
-        bool any = false;
-        for (int i = 0; i < kWallRow; ++i) {
-            const std::uint32_t number = i < count ? meshes.number[first + static_cast<std::size_t>(i)] : 0;
-            row.taken[i] = 0, row.away[i] = 1;
-            if (number == 0) continue;
-            any = true;
-            const SurfacePlane& plane = meshes.planes[number - 1];
-            row.away[i] = meshes.away[first + static_cast<std::size_t>(i)];
-            for (int c = 0; c < 3; ++c) row.normal[c][i] = plane.normal[c];
-            row.taken[i] = row.tone[i] = 1;
-            row.wall[i] = row.container[i] = 0;
-        }
-        return any;
-    });
+    const auto place = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * meshes.stride + static_cast<std::size_t>(x);
+    };
+    light(
+        {by, 0}, 1, team,
+        [&](int, int x, int y, int count) { return any_of_row(meshes.number + place(x, y), count); },
+        [&](int, int x, int y, WallRow& row) {
+            const std::uint32_t* numbers = meshes.number + place(x, y);
+            const float* away = meshes.away + place(x, y);
+            const int count = std::min(kWallRow, width_ - x);
+            for (int i = 0; i < kWallRow; ++i) {
+                const std::uint32_t number = i < count ? numbers[i] : 0;
+                row.taken[i] = number ? 1 : 0, row.away[i] = number ? away[i] : 1;
+                row.tone[i] = 1, row.wall[i] = row.container[i] = 0;
+                if (number == 0) continue;
+                for (int c = 0; c < 3; ++c) row.normal[c][i] = meshes.planes[number - 1].normal[c];
+            }
+        });
 }
 
 void WallLight::darken(int y, std::uint32_t* pixels) const {

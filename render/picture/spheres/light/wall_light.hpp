@@ -63,7 +63,7 @@ class WallLight {
     static constexpr int kTile = kWallRow;
     struct Face {
         SurfacePlane plane;  // normal towards the grains
-        float taken, tone, wall, container;
+        float taken, tone, wall, container, opacity;
         std::vector<Eigen::Vector2d> outline;  // pixels
         int y0, y1;
     };
@@ -75,19 +75,26 @@ class WallLight {
         std::vector<CornerPlane> corners;
         std::vector<std::uint64_t> met_by;  // for each grain: number of the last search that met it
         std::uint64_t search = 0;
+        float container_low, container_high;  // the numbers of the containers that the tile shows
+    };
+    // The faces that pixels show, from 1 on, or 0; and how much of them is bare of what is painted later.
+    struct Numbers {
+        std::vector<std::uint16_t> face;
+        std::vector<std::uint8_t> bare;
     };
     struct Job {
         const LightTakers& by;
         float corner_reach;
     };
 
-    template <class Fill>
-    void light(const Job& job, Team& team, const Fill& fill);
+    template <class Shows, class Fill>
+    void light(const Job& job, int layers, Team& team, const Shows& shows, const Fill& fill);
     void set_faces(const Sight& sight, const Lamp& lamp, const std::vector<WallFace>& faces);
     void number_row(int y);
-    bool fill_from_faces(const Sight& sight, int x, int y, WallRow& row) const;
-    void light_tile(const Job& job, int x, int y0, int rows, Worker& worker);
-    static ViewSphere around(const Sight& sight, const Worker& worker, int rows);
+    void fill_from_faces(const Numbers& numbers, const Sight& sight, int x, int y, WallRow& row) const;
+    void light_tile(const Job& job, int x, int y0, int rows, bool first, Worker& worker);
+    static ViewSphere around(const Sight& sight, Worker& worker, int rows);
+    static bool outside(const NearGrain& near, const Worker& worker);
     static void find_occluders(const LightTakers& by, const ViewSphere& tile, Worker& worker);
     static void find_casters(const LightTakers& by, const ViewSphere& tile, Worker& worker);
     bool hidden(const Visibility& seen, int x, int y, int count) const;
@@ -96,8 +103,9 @@ class WallLight {
     std::vector<WallFace> last_;
     Sight last_sight_;
     std::vector<Face> faces_;
-    std::vector<CornerPlane> corners_;   // sorted by container and wall
-    std::vector<std::uint16_t> number_;  // for each pixel: face that it shows, from 1 on, or 0
+    std::vector<CornerPlane> corners_;  // sorted by container and wall
+    // The upper face of each pixel, and the one below it while the upper one is not wholly there.
+    std::array<Numbers, 2> numbers_;
     std::vector<std::uint8_t> shares_;
     std::vector<Layer::Span> spans_;  // pixels of a row that may be darkened
     std::vector<Worker> workers_;
