@@ -83,13 +83,19 @@ TEST(CameraPath, ATenthOfADegreeChangesColoursLittle) {
     const Picture one = renderer.draw(frame, "", 0), other = renderer.draw(frame, "", 1);
     ASSERT_NE(one.rgba, other.rgba);
     for (const Vec3& at : frame.position) {
-        const auto pixel = [&](const Picture& picture, double time) {
+        // Interpolated between four pixels: from one pixel to the next a ball changes by more than 3.
+        const auto colour = [&](const Picture& picture, double time, int c) {
             const View view = path.at(time);
-            const Pixel centre = view.project(at);
-            return picture.pixel(view.port.x + static_cast<int>(centre.x()),
-                                 view.port.y + static_cast<int>(centre.y()));
+            const Pixel centre = view.project(at) - Pixel(0.5, 0.5), base = centre.array().floor();
+            const Pixel share = centre - base;
+            const int x = view.port.x + static_cast<int>(base.x()),
+                      y = view.port.y + static_cast<int>(base.y());
+            const auto row = [&](int of) {
+                return (1 - share.x()) * picture.pixel(x, of)[c] + share.x() * picture.pixel(x + 1, of)[c];
+            };
+            return (1 - share.y()) * row(y) + share.y() * row(y + 1);
         };
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(pixel(one, 0)[c], pixel(other, 1)[c], 3);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(colour(one, 0, c), colour(other, 1, c), 3);
     }
 }
 
