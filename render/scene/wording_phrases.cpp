@@ -54,6 +54,7 @@ constexpr Row phrases[] = {
     {"centre of mass, y", {"Schwerpunkt, y", "centre de masse, y", "centro de masas, y"}},
     {"centre of mass, z", {"Schwerpunkt, z", "centre de masse, z", "centro de masas, z"}},
     {"mean height of {1}", {"mittlere Höhe: {1}", "hauteur moyenne : {1}", "altura media: {1}"}},
+    {"centre of {1}", {"Mitte: {1}", "centre : {1}", "centro: {1}"}},
     {"contacts per grain", {"Kontakte je Korn", "contacts par grain", "contactos por grano"}},
     {"largest overlap / radius",
      {"größte Überlappung / Radius", "recouvrement maximal / rayon", "solapamiento máximo / radio"}},

@@ -47,7 +47,9 @@ void read_wording(Document& document, FilmedScene& scene) {
             document.fail(path, parts == 0 ? "has a brace, but nothing is put in; take it out"
                                            : fmt::format("must have {} like \"{}\", but is {}", braces(parts),
                                                          english_of(word), document.written_value(path)));
-        scene.film.wording.own.push_back({word, *text});
+        // The table's own text changes nothing, and is not kept.
+        const Wording table{scene.film.wording.language, {}};
+        if (*text != table(word, {"{1}", "{2}"})) scene.film.wording.own.push_back({word, *text});
     });
 }
 

@@ -351,7 +351,7 @@ TEST_F(CompareProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     write("full.toml", "g_level = 3");
     ASSERT_EQ(program({"movie", "weak.toml", "--no-film", "--out", "run"}).status, 0);
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{"compare"}, "SCENE is required"},
+        {{"compare"}, "compare needs a scene"},
         {{"compare", "weak.toml"}, "compare takes 2 to 6 scenes or folders of runs, not 1"},
         {{"compare", "run", "run", "run", "run", "run", "run", "run"}, "not 7"},
         {{"compare", "weak.toml", "missing.toml"}, "missing.toml: "},
