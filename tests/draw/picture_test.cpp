@@ -433,7 +433,7 @@ TEST(Overlay, TheDialShowsWhereTheFloorIs) {
     FilmedScene scene = wedge(1280, 720);
     scene.film.word_kinds.dial = true;
     scene.film.word_kinds.shaking = false;  // its arrow has the dial's colour
-    const double a = scene.drive.amplitude, radius = 2.2 * type_scale(scene.film).main;
+    const double a = scene.drive.amplitude, radius = 2.2 * plan_layout(scene).type.main;
     const auto row = [&](double phase, double offset) {
         Shot frame = frame_of({});
         frame.phase = phase;

@@ -130,7 +130,7 @@ TEST_F(CompareProgram, FinishedRunsLackNothing) {
         ASSERT_EQ(program({"movie", name + ".toml", "--no-film", "--out", name}).status, 0);
     }
     const std::vector<std::string> options = {
-        "--frames", "--no-film", "--set", "film.size=640x480", "--set", "film.camera.frame=container"};
+        "--frames", "--no-film", "--set", "film.size=720x540", "--set", "film.camera.frame=container"};
     const auto compare = [&](const std::string& first, const std::string& second, const std::string& out) {
         std::vector<std::string> words = {"compare", first, second, "--out", out};
         words.insert(words.end(), options.begin(), options.end());
