@@ -30,8 +30,7 @@ std::string braces(int parts) {
 
 void list_wording(keys::Keys& all) {
     for_each_word([&](Word word) {
-        Key key = keys::entry(path_of(word), KeyKind::text,
-                              {quoted(english_of(word)), ""}, "");
+        Key key = keys::entry(path_of(word), KeyKind::text, {quoted(english_of(word)), ""}, "");
         key.most_letters = most_letters;
         all.push_back(std::move(key));
     });

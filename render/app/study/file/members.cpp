@@ -179,14 +179,27 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
     return members;
 }
 
-std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without) {
+namespace {
+
+std::string setting_named(const Study& study, const Member& member, std::optional<std::size_t> without,
+                          std::string Variation::*name) {
     std::string text;
     for (std::size_t i = 0; i < member.at.size(); ++i) {
         if (i == without) continue;
-        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", study.variations[i].label,
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", study.variations[i].*name,
                             study.variations[i].values[member.at[i]].words);
     }
     return text;
+}
+
+}  // namespace
+
+std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without) {
+    return setting_named(study, member, without, &Variation::label);
+}
+
+std::string shown_setting(const Study& study, const Member& member, std::optional<std::size_t> without) {
+    return setting_named(study, member, without, &Variation::shown);
 }
 
 std::string member_text(const Study& study, const Member& member) {

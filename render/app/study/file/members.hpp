@@ -54,6 +54,8 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
 // The setting in words: "drive.g_level = 3, species.nut.diameter = 9 mm"; empty when only seeds are varied.
 // without: a variation that is left out.
 std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without = {});
+// The same with the names that charts and pages have: "Γ = 3, d of nut = 9 mm".
+std::string shown_setting(const Study& study, const Member& member, std::optional<std::size_t> without = {});
 // The setting with the seed.
 std::string member_text(const Study& study, const Member& member);
 
