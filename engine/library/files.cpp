@@ -43,6 +43,7 @@ class OwnArchive final : public StateArchive {
     StateSupply supply() const override {
         StateSupply supply;
         supply.velocities = supply.spins = source_->has_velocities();
+        supply.masses = source_->has_masses();
         return supply;
     }
     const std::vector<grainreel::State>& moments() const override { return moments_; }
@@ -52,6 +53,9 @@ class OwnArchive final : public StateArchive {
         frame.step = moments_[index].step;
         frame.time = frame.cycles = moments_[index].time;
         frame.phase = 0;
+        if (frame.size() > 0 && frame.mass.empty() == source_->has_masses())
+            throw Error(fmt::format("{}: has {}masses, unlike what its reader says (has_masses())", who,
+                                    frame.mass.empty() ? "no " : ""));
         return frame;
     }
 
@@ -161,7 +165,7 @@ struct FrameWriter::Impl {
     void make(const std::string& format);
     void begin(const grainreel::State& first);
     void put(const grainreel::State& frame);
-    void check_orientation(const grainreel::State& frame) const;
+    void check_supply(const grainreel::State& frame) const;
     void take_step(grainreel::State& frame);
     void check_time(const grainreel::State& frame) const;
 
@@ -199,6 +203,7 @@ void FrameWriter::Impl::make(const std::string& format) {
 // The first frame with grains tells what all frames have. Those before it wait.
 void FrameWriter::Impl::begin(const grainreel::State& first) {
     supply.orientations = !first.orientation.empty();
+    supply.masses = !first.mass.empty();
     if (first.size() > 0) world.first_id = first.id.front() == 0 ? 0 : 1;
     writer->begin(world, supply);
     begun = true;
@@ -216,12 +221,16 @@ void FrameWriter::Impl::put(const grainreel::State& frame) {
     writer->frame(frame, {});
 }
 
-void FrameWriter::Impl::check_orientation(const grainreel::State& frame) const {
-    if (!begun || frame.size() == 0 || supply.orientations == !frame.orientation.empty()) return;
-    throw Error(
-        fmt::format("{}: frame {}: has {}orientations, unlike the frames before it; give them in all "
-                    "frames, or in none",
-                    name(), frames, supply.orientations ? "no " : ""));
+void FrameWriter::Impl::check_supply(const grainreel::State& frame) const {
+    if (!begun || frame.size() == 0) return;
+    const auto check = [&](bool before, bool now, const char* what) {
+        if (before != now)
+            throw Error(fmt::format(
+                "{}: frame {}: has {}{}, unlike the frames before it; give them in all frames, or in none",
+                name(), frames, now ? "" : "no ", what));
+    };
+    check(supply.orientations, !frame.orientation.empty(), "orientations");
+    check(supply.masses, !frame.mass.empty(), "masses");
 }
 
 void FrameWriter::Impl::check_time(const grainreel::State& frame) const {
@@ -268,7 +277,7 @@ void FrameWriter::write(const Frame& frame) {
     if (std::isnan(inner.time) && std::isnan(inner.cycles)) inner.cycles = 0;
     check_moment(inner, who);
     to.check_time(inner);
-    to.check_orientation(inner);
+    to.check_supply(inner);
     to.take_step(inner);
     told([&] { to.put(inner); });
     to.numbered = to.numbered && frame.step == 0;

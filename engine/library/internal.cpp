@@ -64,6 +64,7 @@ void check_lengths(const Frame& frame, const std::string& who) {
     check(frame.velocity.size(), "velocity", true);
     check(frame.spin.size(), "spin", true);
     check(frame.orientation.size(), "orientation", true);
+    check(frame.mass.size(), "mass", true);
 }
 
 void check_ids(const Frame& frame, const std::string& who) {
@@ -73,6 +74,13 @@ void check_ids(const Frame& frame, const std::string& who) {
             throw Error(fmt::format("{}: id {} follows id {}; give grains by rising id, each once", who,
                                     frame.id[i], frame.id[i - 1]));
     }
+}
+
+void check_masses(const Frame& frame, const std::string& who) {
+    for (std::size_t i = 0; i < frame.mass.size(); ++i)
+        if (!std::isfinite(frame.mass[i]) || frame.mass[i] <= 0)
+            throw Error(fmt::format("{}: grain {} has a mass of {} kg; give all grains one above 0, or none",
+                                    who, frame.id[i], frame.mass[i]));
 }
 
 BodyPose pose_inside(const Pose& pose) {
@@ -121,6 +129,7 @@ Frame outside(const grainreel::State& from) {
     frame.velocity = each_outside<Vector>(from.velocity);
     frame.spin = each_outside<Vector>(from.spin);
     frame.orientation = each_outside<Rotation>(from.orientation);
+    frame.mass = from.mass;
     for (const BodyPose& pose : from.bodies)
         frame.bodies.push_back(
             {outside(pose.place), outside(pose.rotation), outside(pose.velocity), outside(pose.spin)});
@@ -131,6 +140,7 @@ grainreel::State inside(const Frame& from, std::size_t species, const std::strin
     check_lengths(from, who);
     check_ids(from, who);
     check_species(from, species, who);
+    check_masses(from, who);
     grainreel::State frame;
     frame.step = from.step;
     frame.time = from.time;
@@ -145,6 +155,7 @@ grainreel::State inside(const Frame& from, std::size_t species, const std::strin
     frame.velocity.resize(frame.size(), Vec3(0, 0, 0));
     frame.spin.resize(frame.size(), Vec3(0, 0, 0));
     for (const Rotation& one : from.orientation) frame.orientation.push_back(inside(one).normalized());
+    frame.mass = from.mass;
     if (!from.bodies.empty()) frame.bodies.clear();
     for (const Pose& pose : from.bodies) frame.bodies.push_back(pose_inside(pose));
     while (frame.bodies.size() < kFirstPlaneBody) frame.bodies.emplace_back();
@@ -308,6 +319,7 @@ void Frame::add(const Vector& where, double r, std::int32_t kind) {
     velocity.emplace_back();
     spin.emplace_back();
     if (!orientation.empty()) orientation.emplace_back();
+    if (!mass.empty()) mass.push_back(0);
 }
 
 Mesh Mesh::plate(const std::string& name, const Vector& corner, const Vector& first, const Vector& second) {

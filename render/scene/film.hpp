@@ -343,7 +343,7 @@ struct Film {
     std::string preset = "veryfast";
     WordPlace words = WordPlace::automatic;
     WordKinds word_kinds;
-    Wording wording;  // language and own words
+    Wording wording;          // language and own words
     bool axes = false;        // arrows along x, y and z beside the picture
     bool wall_ghost = false;  // the outline of the container at rest
     double exaggerate = 1;    // the motion of the container and its grains is drawn so many times as large

@@ -74,7 +74,8 @@ TEST(CaptionBand, IsNotThereWithoutCaptions) {
 }
 
 TEST(CaptionBand, LongCaptionsWrapThenShrinkThenAreCut) {
-    std::string sentence = "A sentence that is so long that it takes a second line of the picture, or a third line at most.";
+    std::string sentence =
+        "A sentence that is so long that it takes a second line of the picture, or a third line at most.";
     const CaptionPlan two = plan_captions(with_captions(854, 480, {sentence}).film, 854);
     EXPECT_GE(two.lines, 2);
     EXPECT_NEAR(two.letters, 480 / 25.0, 1e-9);

@@ -379,7 +379,8 @@ TEST(Overlay, SettlingIsSaid) {
 }
 
 TEST(Overlay, AHairBeforeAPeriodIsThatPeriod) {
-    const FilmedScene scene = wedge();
+    FilmedScene scene = wedge();
+    scene.film.word_kinds.cycle = scene.film.word_kinds.dial = true;
     const PictureLayout layout = plan_layout(scene);
     Renderer renderer(scene, 1);
     Shot frame = frame_of({});
@@ -430,7 +431,9 @@ double floor_dot_row(const FilmedScene& scene, const Picture& picture) {
 
 TEST(Overlay, TheDialShowsWhereTheFloorIs) {
     FilmedScene scene = wedge(1280, 720);
-    const double a = scene.drive.amplitude, radius = 2.2 * type_scale(scene.film).main;
+    scene.film.word_kinds.dial = true;
+    scene.film.word_kinds.shaking = false;  // its arrow has the dial's colour
+    const double a = scene.drive.amplitude, radius = 2.2 * plan_layout(scene).type.main;
     const auto row = [&](double phase, double offset) {
         Shot frame = frame_of({});
         frame.phase = phase;

@@ -69,7 +69,7 @@ TEST(TransparentFilm, WordsReadOnAnyPaper) {
         const Picture clear = Renderer(scene, 1).draw(half_way(), "slow motion, 1/10 speed");
         for (const Colour& paper : kPapers)
             for (const Rectangle& gutter : {layout.first, layout.second}) {
-                const Ink ink = ink_in(gutter, opaque, clear, paper, 6);
+                const Ink ink = ink_in(gutter, opaque, clear, paper, 7);
                 EXPECT_GT(ink.all, 1000);
                 EXPECT_GT(ink.read, 0.98 * ink.all) << background.red << " on " << paper.red;
             }

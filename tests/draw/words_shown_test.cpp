@@ -20,9 +20,9 @@
 namespace grainreel::test {
 namespace {
 
-constexpr bool WordKinds::*every_kind[] = {&WordKinds::title,    &WordKinds::legend,  &WordKinds::time,
-                                           &WordKinds::cycle,    &WordKinds::dial,    &WordKinds::drive,
-                                           &WordKinds::playback, &WordKinds::scale,   &WordKinds::arrows,
+constexpr bool WordKinds::*every_kind[] = {&WordKinds::title,    &WordKinds::legend,   &WordKinds::time,
+                                           &WordKinds::cycle,    &WordKinds::dial,     &WordKinds::drive,
+                                           &WordKinds::playback, &WordKinds::scale,    &WordKinds::arrows,
                                            &WordKinds::counts,   &WordKinds::captions, &WordKinds::shaking};
 
 WordKinds none() {
@@ -106,7 +106,8 @@ TEST(WordsShown, MarksBesideTheFloorGoWithTheArrows) {
     EXPECT_TRUE(lab_marks(scene, scene.film.camera.azimuth).empty());
 }
 
-// The film says the time and its pace, what shakes, and the scale. Other signs are there if they are asked for.
+// The film says the time and its pace, what shakes, and the scale. Other signs are there if they are asked
+// for.
 TEST(WordsShown, ThreeSignsStandThereByDefault) {
     const FilmedScene scene = wedge(1280, 720);
     const WordKinds& kinds = scene.film.word_kinds;

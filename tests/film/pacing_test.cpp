@@ -68,7 +68,7 @@ TEST(Pacing, WhereFramesComeUnevenlyTheirMeanIsSaid) {
     }
     EXPECT_EQ(caption(frames, 25), "none");
     EXPECT_EQ(pacing_caption(frames, drive_of(25), 30),
-              "on average 1 frame every 1.25 periods, at phase 0 (plays 1.5×)");
+              "on average 1 frame every 1.25 periods at phase 0 (plays 1.5×)");
     frames[2].phase = 0.5;  // (5/25 s) / 4 frames x 30 frames/s = 1.5
     EXPECT_EQ(pacing_caption(frames, drive_of(25), 30), "on average time lapse, 1.5× speed");
     EXPECT_EQ(pacing_caption(moments(5, 800), drive_of(20), 30), caption(moments(5, 800)));

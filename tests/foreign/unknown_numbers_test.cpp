@@ -209,6 +209,25 @@ TEST(UnknownCells, AreMissingNumbersOfATable) {
     }
 }
 
+// A slip among types that are numbers makes a species, and is told. Words alone are names of species.
+TEST(UnknownCells, AWordAmongTypesThatAreNumbersIsTold) {
+    const TemporaryFolder folder;
+    const auto news_of = [&](const std::string& one, const std::string& other,
+                             const ReadingOptions& options) {
+        write_text(folder / "a.csv",
+                   "id,type,x,y,z,radius\n1," + one + ",0,0,0,0.1\n2," + other + ",1,0,0,0.1\n");
+        std::string all;
+        for (const std::string& line : ForeignArchive(folder / "a.csv", options).news()) all += line + "\n";
+        return all;
+    };
+    ReadingOptions named;
+    named.species["1x"] = "big";
+    EXPECT_THAT(news_of("1", "1x", {}), tells({"a.csv", "types are numbers", "\"1x\"", "--species"}));
+    for (const std::string& quiet :
+         {news_of("1", "2.5", {}), news_of("glass", "1x", {}), news_of("1", "1x", named)})
+        EXPECT_EQ(quiet.find("types are numbers"), std::string::npos) << quiet;
+}
+
 TEST(UnknownCells, AWordInAColumnOfNumbersIsRefusedWithItsRow) {
     const TemporaryFolder folder;
     for (const auto& [member, name] : {std::pair(&Words::id, "id"),

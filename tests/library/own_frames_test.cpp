@@ -71,6 +71,29 @@ TEST(OwnFrames, ComeBackWithoutStepsInEveryFormat) {
     }
 }
 
+// Formats that have a place for masses keep that of each grain, and a frame says where it has none.
+TEST(OwnFrames, KeepTheMassOfEachGrain) {
+    const grainreel::test::TemporaryFolder folder;
+    for (const std::string format : {"lammps-dump", "xyz", "csv", "vtk"}) {
+        gr::FrameWriter writer(folder / format, format, one_species());
+        gr::Frame frame = row_of_balls(3, 0);
+        frame.mass = {1e-3, 2e-3, 4e-3};
+        writer.write(frame);
+        frame.time = 1;
+        frame.mass[1] = 0;
+        EXPECT_TRUE(has(complaint([&] { writer.write(frame); }), "grain 1 has a mass of 0 kg"));
+        frame.mass = {1e-3, 2e-3};
+        EXPECT_TRUE(has(complaint([&] { writer.write(frame); }), "3 ids and 2 entries of mass"));
+        frame.mass.clear();
+        EXPECT_TRUE(has(complaint([&] { writer.write(frame); }), "no masses, unlike the frames before"));
+        writer.close();
+        const std::vector<double> read = gr::FrameFile(folder / format).frame(0).mass;
+        ASSERT_EQ(read.size(), 3U) << format;
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(read[k] / (1e-3 * (1 << k)), 1, 1e-6) << format;
+    }
+    EXPECT_TRUE(row_of_balls(2, 0).mass.empty());
+}
+
 // The file has as many places as its largest frame has grains.
 TEST(OwnFrames, MakeATrajectoryThatGrows) {
     const grainreel::test::TemporaryFolder folder;

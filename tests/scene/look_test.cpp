@@ -107,7 +107,7 @@ TEST(Look, ShowNamesTheWords) {
               nothing.film.word_kinds);
     expect_complaint({"film.show=[\"titel\"]"},
                      "--set film.show: 'show' has \"titel\", which is none of the words: title, legend, "
-                     "time, cycle, dial, drive, playback, scale, arrows, counts, captions");
+                     "time, cycle, dial, drive, shaking, playback, scale, arrows, counts, captions");
     expect_complaint({"film.show=title"}, "must be a list of names, but is \"title\"");
     try {
         read_text(wedge_text + "\n[film]\nshow = [\"time\", \"clock\"]\n");

@@ -72,8 +72,9 @@ void expect_complaint(const std::string& toml, const testing::Matcher<std::strin
 }
 
 TEST(Wording, IsReadAndWrittenBack) {
-    const FilmedScene scene = read_text(wedge_text + "[film]\nlang = \"fr\"\n[film.wording]\n"
-                                                     "gravity = \"poids\"\ncycle = \"tour {1}\"\n");
+    const FilmedScene scene = read_text(wedge_text +
+                                        "[film]\nlang = \"fr\"\n[film.wording]\n"
+                                        "gravity = \"poids\"\ncycle = \"tour {1}\"\n");
     EXPECT_EQ(scene.film.wording(Word::gravity), "poids");
     EXPECT_EQ(scene.film.wording(Word::cycle, {"7"}), "tour 7");
     EXPECT_EQ(scene.film.wording(Word::vibration), "vibration");

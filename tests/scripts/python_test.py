@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import warnings
 import zlib
 from pathlib import Path
 
@@ -137,11 +138,14 @@ def check_run(program):
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     for again in (picture, grainreel.render(run, at=0.1, size="160x120", program=program)):
         expect((read_png(Path("at.png").read_bytes()) == again).all(), "render() and the program draw different pictures")
+    expect((run.render(cycle=1, phase=0.5, size="160x120") == run.render(at=0.075, size="160x120")).all(),
+           "half a period after the first is not 0.075 s")
     pale = grainreel.render(run.path, size=(160, 120), program=program, transparent=True)
     expect(pale.shape == (120, 160, 4), f"a transparent picture has the shape {pale.shape}")
     check_frames(run)
     check_own_colours(run)
     check_empty_frames()
+    check_warnings()
     # A file of another program: its last moment too. A grain that moves to the other side of the picture shows which.
     Path("two.xyz").write_text("".join(
         f'1\nLattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:radius:R:1 Time={time}\nA 2 {y} 2 0.5\n'
@@ -169,6 +173,18 @@ def check_frames(run):
     table = run.to_dataframe()
     expect(list(table.groupby("frame").z.max()) == list(trajectory.z.max("atom").values), "the table has other grains")
     expect(abs(float(run.sel(time="100 ms").time) - 0.1) < 1e-3, "a time with a unit finds another frame")
+    inside = [float(time) for time in run.time if 0.04 <= time <= 0.16]
+    expect([float(frame.time) for frame in run.sel(time=slice(0.04, "160 ms"))] == inside, "a slice has other times")
+    expect(0 < len(inside) < len(run) == len(run.sel(time=slice(None))), "a slice of times has all frames")
+
+
+def check_warnings():
+    """What a picture cannot show is a warning at the user's line, and names the user's file."""
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        grainreel.render("run/trajectory.nc", at=0.12)
+    expect(len(told) == 1 and told[0].filename == __file__ and "run/trajectory.nc" in str(told[0].message) and
+           "0.12 s was not kept" in str(told[0].message), f"warnings are {[str(each.message) for each in told]}")
 
 
 def check_empty_frames():
@@ -178,6 +194,10 @@ def check_empty_frames():
     counts = [frame.sizes["atom"] for frame in run]
     expect(counts[0] == 0 and counts == list(run.trajectory.grains.values), f"frames have {counts} grains")
     expect(len(run.to_dataframe()) == sum(counts), "the table has places without grains")
+    climbed = run[-1].z - run[2].z  # of the grains that both have
+    expect(list(climbed.id.values) == list(run[2].id.values), f"{climbed.sizes} of {counts} grains are compared")
+    grain = int(run[2].id[3])
+    expect(float(climbed.sel(id=grain)) == float(run[-1].sel(id=grain).z) - float(run[2].z[3]), "grains are mixed up")
     fields = run.to_dataframe("fields")
     points = int(numpy.prod([run.fields.sizes[name] for name in ("time", "y", "z")]))
     expect(len(fields) == points and {"time", "y", "z", "density"} <= set(fields), f"{len(fields)} of {points} points")
@@ -271,6 +291,7 @@ def main(program):
         watchdog = threading.Timer(500, lambda: os._exit(1))
         watchdog.daemon = True
         watchdog.start()
+        warnings.filterwarnings("ignore", ".*has no room for words.*")
         check_pictures()
         check_run(program)
         check_mistakes(program)

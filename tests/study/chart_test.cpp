@@ -10,6 +10,7 @@
 #include "engine/base/text.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
 #include "render/app/print/run_charts.hpp"
+#include "render/app/study/file/variations.hpp"
 #include "render/app/study/page.hpp"
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/results.hpp"
@@ -60,7 +61,7 @@ TEST(StudyChartPoints, AreMeansOverSeedsAlone) {
     const std::vector<ChartSeries> series =
         chart_series(made.study, made.members, made.results, made.study.charts[0]);
     ASSERT_EQ(series.size(), 3u);
-    EXPECT_EQ(series[1].name, "species.big.diameter = 5.5 mm");
+    EXPECT_EQ(series[1].name, "d of big = 5.5 mm");
     ASSERT_EQ(series[1].points.size(), 2u);
     EXPECT_EQ(series[1].points[0].x, 2);
     EXPECT_EQ(series[1].points[1].x, 3);
@@ -90,15 +91,69 @@ TEST(StudyChartLabels, StandOnTheChartWithTheirUnits) {
     chart.x = 1, chart.y = 0;
     const std::string commands =
         chart_commands(made.study, chart, chart_series(made.study, made.members, made.results, chart), false);
-    EXPECT_THAT(commands, HasSubstr("set xlabel 'species.big.diameter (mm)'"));
+    EXPECT_THAT(commands, HasSubstr("set xlabel 'd of big (mm)'"));
     EXPECT_THAT(commands, HasSubstr("set ylabel 'kinetic energy, mean (J)'"));
     // Two names of 29 letters side by side were cut off at the chart's edge.
     const StudyChart& sizes = made.study.charts[0];
+    made.study.variations[1].shown = "species.big.diameter";
     EXPECT_THAT(
         chart_commands(made.study, sizes, chart_series(made.study, made.members, made.results, sizes), false),
         HasSubstr("title 'species.big.diameter = 5.5'.\"\\n\".'mm'"));
     EXPECT_THAT(study_page(made.study, made.members, made.results, {made.folder.path()}, {}),
                 HasSubstr("<th>kinetic energy, mean (J)</th>"));
+}
+
+TEST(StudyChartLabels, NameKeysAsFilmsDo) {
+    EXPECT_EQ(name_in_films("drive.g_level"), "Γ");
+    EXPECT_EQ(name_in_films("drive.frequency"), "f");
+    EXPECT_EQ(name_in_films("species.nut.diameter"), "d of nut");
+    EXPECT_EQ(name_in_films("species.nut.density"), "density of nut");
+    EXPECT_EQ(name_in_films("contact.friction"), "friction");
+    EXPECT_EQ(name_in_films("contact.wall.friction"), "wall friction");
+    EXPECT_EQ(name_in_films("start.packing_seed"), "packing seed");
+}
+
+// Series stand aside of each other, and the seeds of each point are drawn while there are few of them.
+TEST(StudyChartPoints, OfSeveralSeriesDoNotLieOnEachOther) {
+    Made made(small_study);
+    const StudyChart& chart = made.study.charts[0];
+    const std::vector<ChartSeries> series = chart_series(made.study, made.members, made.results, chart);
+    ASSERT_EQ(series.size(), 3u);
+    const std::string commands = chart_commands(made.study, chart, series, false);
+    // Γ goes from 2 to 3: one step aside is 0.012 of that.
+    EXPECT_THAT(commands, HasSubstr("(column(1)==0 ? (column(2)-0.012) : NaN):3:4:5"));
+    EXPECT_THAT(commands, HasSubstr("(column(1)==1 ? column(2) : NaN):3:4:5"));
+    EXPECT_THAT(commands, HasSubstr("(column(1)==2 ? (column(2)+0.012) : NaN):3:4:5"));
+    EXPECT_THAT(commands, HasSubstr("set border 3"));
+    ASSERT_TRUE(has_seeds(series));
+    EXPECT_THAT(commands, HasSubstr(".seeds.csv"));
+    const std::string table = seed_table(series);
+    EXPECT_THAT(table, testing::StartsWith("series,x,value\n0,2,"));
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 3 * 2 * 2) << "series, Γ, seeds";
+    std::vector<ChartSeries> many = series;
+    for (ChartSeries& each : many)
+        for (ChartPoint& point : each.points) point.values.assign(few_values + 1, 1.0);
+    EXPECT_FALSE(has_seeds(many));
+}
+
+// The half of the interval has two digits, and the mean as many decimals.
+TEST(StudyIntervals, DigitsFollowTheInterval) {
+    EXPECT_EQ(interval_text({5, 0.41234, 0.03123}), "0.412 ± 0.031");
+    EXPECT_EQ(interval_text({5, -0.0687, 0.183}), "−0.07 ± 0.18");
+    EXPECT_EQ(interval_text({5, 1234.5, 312}), "1230 ± 310");
+    EXPECT_EQ(interval_text({5, -0.001, 0.5}), "0.00 ± 0.50");
+    EXPECT_EQ(interval_text({1, -0.25, 0}), "−0.25");
+    EXPECT_EQ(interval_text({0, 0, 0}), "–");
+}
+
+TEST(StudyPage, SaysInWordsWhatChartsShow) {
+    Made made(small_study);
+    const std::string stem = chart_stem(made.study.charts[0]);
+    const std::string page = study_page(made.study, made.members, made.results, {made.folder.path()}, {stem});
+    EXPECT_THAT(page, HasSubstr("against Γ: for d of big = 5 mm "));
+    EXPECT_THAT(page, HasSubstr(" at 2, "));
+    EXPECT_THAT(page, HasSubstr("prefers-color-scheme: dark"));
+    EXPECT_THAT(page, HasSubstr("@media print"));
 }
 
 TEST(StudyTable, HasARowAMember) {

@@ -10,6 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/plan/reach.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/study/study_text.hpp"
@@ -41,6 +42,22 @@ TEST(StudyMembers, GoThroughTheGridSeedBySeed) {
     std::set<std::string> names;
     for (const Member& member : members) names.insert(member.name);
     EXPECT_EQ(names.size(), members.size());
+}
+
+// Pictures of all members have one scale and one layout: they reach as high as those of the wildest member.
+TEST(StudyMembers, ShareTheHeightThatTheirPicturesReach) {
+    const StudyFolderOfTest folder;
+    const Study study = folder.read(small_study);
+    double highest = 0;
+    const std::vector<Member> members = members_of(study);
+    for (const Member& member : members)
+        highest = std::max(highest, estimated_reach(read_filmed_scene(study.scene, member.sets)).value());
+    for (const Member& member : members) {
+        ASSERT_EQ(member.framing.size(), 1u);
+        EXPECT_EQ(member.framing[0].text, fmt::format("film.camera.reach={:.6g}", highest));
+    }
+    const Study framed = folder.read("set = [\"film.camera.frame=container\"]\n" + small_study);
+    EXPECT_TRUE(members_of(framed).front().framing.empty());
 }
 
 // Members have the same scene as `movie --set ...`.

@@ -85,6 +85,8 @@ class FrameSource {
     virtual Frame frame(std::size_t index) const = 0;
     /// Whether velocities are known.
     virtual bool has_velocities() const { return true; }
+    /// Whether frames have the mass of each grain.
+    virtual bool has_masses() const { return false; }
 };
 
 /// Reads one format. Exceptions of its functions come through as they are. If a file is damaged, throw Error
@@ -123,7 +125,8 @@ class FrameWriter {
 
     /// Writes a frame. Each must be later than the one before it. If no times are known, all of them are NaN;
     /// "netcdf" does not take such frames. Steps must rise, too. If `step` is 0 in all frames, the writer
-    /// numbers them 0, 1, 2, ... Either all frames with grains have orientations, or none has.
+    /// numbers them 0, 1, 2, ... Either all frames with grains have orientations, or none has;
+    /// so with masses.
     ///
     /// Throws Error where a frame is not so, or not as Frame says, or where the disk is full. A frame that is
     /// refused is not in the file; you may go on with others.

@@ -40,10 +40,14 @@ struct Frame {
     /// With fewer it is refused. Poses beyond these are not used.
     std::vector<Pose> bodies{};
 
+    /// kg, of each grain; empty where all grains have the density of their species.
+    std::vector<double> mass{};
+
     /// How many grains there are.
     std::size_t size() const { return id.size(); }
 
-    /// Adds a grain at rest; its id is one more than the last one. position and radius in m.
+    /// Adds a grain at rest; its id is one more than the last one. position and radius in m. In a frame with
+    /// masses it has none yet.
     void add(const Vector& position, double radius, std::int32_t species = 0);
 };
 

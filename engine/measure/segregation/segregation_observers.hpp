@@ -61,11 +61,12 @@ class BigAboveSmall final : public Observer {
 class BigInQuarters final : public Observer {
   public:
     static std::vector<ColumnGroup> columns(const Scene&) {
-        return {
-            {{{"big_in_top_quarter", "share of big grains in the top quarter"}},
-             "1",
-             "share of the largest species' grains whose centres lie above 3/4 of the bed's height"},
-            {{{"big_in_bottom_quarter", "share of big grains in the bottom quarter"}}, "1", "the same below 1/4 of it"}};
+        return {{{{"big_in_top_quarter", "share of big grains in the top quarter"}},
+                 "1",
+                 "share of the largest species' grains whose centres lie above 3/4 of the bed's height"},
+                {{{"big_in_bottom_quarter", "share of big grains in the bottom quarter"}},
+                 "1",
+                 "the same below 1/4 of it"}};
     }
     static std::string why_empty(const Scene& scene, const std::string&) { return without_two_kinds(scene); }
     void look(const ObservedState& m, std::vector<double>& row) override {

@@ -225,6 +225,14 @@ void Import::tell_of_box() {
                                         request_.from.string()));
 }
 
+std::vector<std::string> Import::later_news() const {
+    std::vector<std::string> lines = archive_.news_of_frames();
+    std::erase_if(lines, [&](const std::string& line) {
+        return std::find(run_.news.begin(), run_.news.end(), line) != run_.news.end();
+    });
+    return lines;
+}
+
 // The scene's text also says where grains were and how many there were at most.
 void Import::finish(const ImportSurvey& survey) {
     std::vector<std::string> said;
@@ -237,7 +245,7 @@ void Import::finish(const ImportSurvey& survey) {
     tell_of_contacts();
     tell_of_box();
     files_->arrival.close();
-    for (std::string& line : archive_.news_of_frames()) run_.news.push_back(std::move(line));
+    for (std::string& line : later_news()) run_.news.push_back(std::move(line));
     std::string news;
     for (const std::string& line : run_.news) news += line + "\n";
     write_import_text(request_.folder / kImportNews, news);

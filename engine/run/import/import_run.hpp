@@ -67,6 +67,8 @@ class Import {
     bool take_next();
     std::int64_t frames() const { return run_.frames; }
     const std::vector<std::string>& news() const { return run_.news; }
+    // What frames that came after run() brought of it.
+    std::vector<std::string> later_news() const;
 
   private:
     struct Files;

@@ -74,8 +74,8 @@ void SimulatedBed::Impl::take_wall_sums(Bytes& in) {
     if (observers.need_wall_sums()) {
         WallScale scale = wall_scale(scene, plan);
         const bool there = !sums.faces.empty();
-        // The plan may expect other impacts than the run's first plan did, or have other contacts. The sums go
-        // on in the units in which they began.
+        // The plan may expect other impacts than the run's first plan did, or have other contacts. The sums
+        // go on in the units in which they began.
         if (there) scale.force = sums.scale.force, scale.length = sums.scale.length;
         if (there && !is_sound(sums, around.faces.size() + around.meshes.size(), scale)) in.fail();
         if (in.failed()) throw damaged_checkpoint(scene);

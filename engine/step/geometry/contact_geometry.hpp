@@ -2,6 +2,7 @@
 // (TouchChunk, engine/laws/law_kernel.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,12 @@ enum class Wants { overlap, velocity, spin, rolling };
 inline Wants wants_of(const LawKernel& law) {
     return law.rubs ? Wants::spin : law.uses_velocity ? Wants::velocity : Wants::overlap;
 }
+
+// The place and the motion of a grain as bundles of four doubles: how many doubles they have, and with which
+// one the spin begins.
+inline constexpr int kPlaceNumbers = sizeof(Place) / sizeof(double),
+                     kMotionNumbers = sizeof(Motion) / sizeof(double),
+                     kSpinOfMotion = offsetof(Motion, spin) / sizeof(double);
 
 struct GeometryInput {
     const Grains* grains;

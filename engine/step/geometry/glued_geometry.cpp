@@ -17,7 +17,7 @@ struct AtGlued {
 };
 HWY_INLINE AtGlued at_glued(const double* place, const GluedState& state, const std::int32_t* i,
                             const std::int32_t* j, const std::int32_t* face) {
-    const auto grain = load_bundles(place, 4, i);
+    const auto grain = load_bundles(place, kPlaceNumbers, i);
     const auto glued = load_bundles(numbers(state.glued.place), 4, j);
     const auto face_point = load_bundles(numbers(state.walls.faces) + 4, 8, face);
     AtGlued at{triple(face_point) + triple(glued) - triple(grain), Lanes(0.0), Lanes(grain.d),
@@ -60,7 +60,7 @@ void glued_chunk(const GeometryInput& in, const GluedState& state, const std::in
         if (in.radius) put<Number>(at.radius * at.other_radius / reach, out.effective_radius, c);
         if (in.wants == Wants::overlap && !in.mass) continue;
 
-        const auto motion_one = load_bundles(motion, 8, i);
+        const auto motion_one = load_bundles(motion, kMotionNumbers, i);
         if (in.mass) put<Number>(Lanes(motion_one.d), out.inverse_mass, c);
         if (in.wants == Wants::overlap) continue;
 
@@ -70,7 +70,7 @@ void glued_chunk(const GeometryInput& in, const GluedState& state, const std::in
             Lanes arm = at.radius;
             if (in.arms == LeverArms::contact_plane)
                 arm = half * multiply_add((at.radius - at.other_radius) * reach, inverse, at.distance);
-            const Triple<Lanes> rate = triple(load_bundles(motion + 4, 8, i));
+            const Triple<Lanes> rate = triple(load_bundles(motion + kSpinOfMotion, kMotionNumbers, i));
             const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
             const Triple<Lanes> across = velocity.less(k, closing);
             const Lanes farther = less_product(one, Lanes(2.0) * in_half, closing);

@@ -39,7 +39,6 @@ HWY_INLINE Triple<Lanes> turn_between(const Triple<Lanes>& before, const Triple<
 // Copies that fill the last block are MeshTouch as well.
 template <Wants wants, class Number>
 void meshes_chunk(const GeometryInput& in, const MeshTouch* at, TouchChunk& out) {
-    static_assert(sizeof(MeshTouch) == 16 * sizeof(double));
     HWY_ALIGN static constexpr std::int32_t in_turn[8] = {0, 1, 2, 3, 4, 5, 6, 7};
     const double* motion = numbers(in.grains->motion);
     const Lanes zero(0.0), half(0.5), twist_share(0.25 * in.step);
@@ -47,9 +46,10 @@ void meshes_chunk(const GeometryInput& in, const MeshTouch* at, TouchChunk& out)
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         const std::int32_t* i = in.first + c;
         const double* const touch = reinterpret_cast<const double*>(at + c);
-        const auto part = [&](int first) HWY_ATTR { return load_bundles(touch + first, 16, in_turn); };
-        const auto place = part(0);
-        const Lanes distance(place.d), radius(load_bundles(numbers(in.grains->place), 4, i).d);
+        const auto part = [&](MeshTouch::Part one)
+                              HWY_ATTR { return load_bundles(touch + one, MeshTouch::kNumbers, in_turn); };
+        const auto place = part(MeshTouch::kNormal);
+        const Lanes distance(place.d), radius(load_bundles(numbers(in.grains->place), kPlaceNumbers, i).d);
         const Lanes overlap = select(distance < Lanes(MeshTouch::kApart), radius - distance, Lanes(-1.0));
         put<Number>(overlap, out.overlap, c);
         const LanesMask touching = overlap > zero;
@@ -60,15 +60,16 @@ void meshes_chunk(const GeometryInput& in, const MeshTouch* at, TouchChunk& out)
         if (in.radius) put<Number>(radius, out.effective_radius, c);
         if (wants == Wants::overlap && !in.mass) continue;
 
-        const auto motion_one = load_bundles(motion, 8, i);
+        const auto motion_one = load_bundles(motion, kMotionNumbers, i);
         if (in.mass) put<Number>(Lanes(motion_one.d), out.inverse_mass, c);
         if constexpr (wants == Wants::overlap) continue;
 
-        Triple<Lanes> velocity = triple(motion_one) - triple(part(8));
+        Triple<Lanes> velocity = triple(motion_one) - triple(part(MeshTouch::kVelocity));
         if constexpr (wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
-            const Triple<Lanes> kept = triple(part(4)), spin = triple(load_bundles(motion + 4, 8, i)),
-                                of_wall = triple(part(12));
+            const Triple<Lanes> kept = triple(part(MeshTouch::kNormalBefore)),
+                                spin = triple(load_bundles(motion + kSpinOfMotion, kMotionNumbers, i)),
+                                of_wall = triple(part(MeshTouch::kSpin));
             const LanesMask is_new = (kept.x == zero) & (kept.y == zero) & (kept.z == zero);
             const Triple<Lanes> before = in.step == 0 ? k : select(is_new, k, as_held<Number>(kept));
             // `change` leads from k to the normal at the step's middle, where velocities lag behind

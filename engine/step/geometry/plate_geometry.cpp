@@ -27,7 +27,7 @@ struct AtPlate {
 HWY_INLINE AtPlate at_plate(const double* place, const WallState& walls, const std::int32_t* i,
                             const std::int32_t* face) {
     const Lanes zero(0.0), one(1.0);
-    const auto grain = load_bundles(place, 4, i);
+    const auto grain = load_bundles(place, kPlaceNumbers, i);
     const auto plane = load_bundles(numbers(walls.faces), 8, face);
     const auto axis = load_bundles(numbers(walls.faces) + 4, 8, face);
     const auto edge = load_bundles(numbers(walls.ends), 8, face);
@@ -90,14 +90,14 @@ void plates_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& o
         if (in.radius) put<Number>(at.radius, out.effective_radius, c);
         if (in.wants == Wants::overlap && !in.mass) continue;
 
-        const auto motion_one = load_bundles(motion, 8, i);
+        const auto motion_one = load_bundles(motion, kMotionNumbers, i);
         if (in.mass) put<Number>(Lanes(motion_one.d), out.inverse_mass, c);
         if (in.wants == Wants::overlap) continue;
 
         Triple<Lanes> velocity = triple(motion_one) - triple(load_bundles(numbers(walls.motion), 8, face));
         if (in.wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? at.distance : at.radius;
-            const Triple<Lanes> rate = triple(load_bundles(motion + 4, 8, i));
+            const Triple<Lanes> rate = triple(load_bundles(motion + kSpinOfMotion, kMotionNumbers, i));
             const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
             const Lanes along_edge = at.around.dot(velocity);
             const Triple<Lanes> upright = velocity.less(k, closing).less(at.around, along_edge);

@@ -20,7 +20,7 @@ struct AtWall {
 HWY_INLINE AtWall at_wall(const double* place, const WallState& walls, const std::int32_t* i,
                           const std::int32_t* face, Triple<Lanes>& into) {
     const Lanes zero(0.0);
-    const auto grain = load_bundles(place, 4, i);
+    const auto grain = load_bundles(place, kPlaceNumbers, i);
     const auto plane = load_bundles(numbers(walls.faces), 8, face);
     const Triple<Lanes> centre = triple(grain);
     into = triple(plane);
@@ -69,14 +69,14 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
         if (in.radius) put<Number>(radius, out.effective_radius, c);
         if (wants == Wants::overlap && !in.mass) continue;
 
-        const auto motion_one = load_bundles(motion, 8, i);
+        const auto motion_one = load_bundles(motion, kMotionNumbers, i);
         if (in.mass) put<Number>(Lanes(motion_one.d), out.inverse_mass, c);
         if constexpr (wants == Wants::overlap) continue;
 
         Triple<Lanes> velocity = triple(motion_one) - triple(load_bundles(numbers(walls.motion), 8, face));
         if constexpr (wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
-            const Triple<Lanes> rate = triple(load_bundles(motion + 4, 8, i));
+            const Triple<Lanes> rate = triple(load_bundles(motion + kSpinOfMotion, kMotionNumbers, i));
             // A cylinder's normal turns as the grain moves around the axis. A plane's normal does not turn.
             const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
             Triple<Lanes> across = velocity.less(k, closing) * select(round, Lanes(-1.0), Lanes(0.0));

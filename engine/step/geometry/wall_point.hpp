@@ -7,6 +7,7 @@
 // the step. The old normal is known. So a grain that turns with its wall as one body does not slip.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "engine/step/geometry/contact_geometry.hpp"
@@ -34,6 +35,8 @@ void touch_turning_walls(const GeometryInput& in, const WallState& walls, TouchC
 // time, so its members must keep their order.
 struct alignas(64) MeshTouch {
     static constexpr double kApart = 1e300;
+    // The doubles with which its bundles of four begin, and their number.
+    enum Part { kNormal = 0, kNormalBefore = 4, kVelocity = 8, kSpin = 12, kNumbers = 16 };
 
     Vec3 normal{0, 0, 0};         // unit, from the grain's centre to the place
     double distance = kApart;     // m, of the centre; kApart: does not touch
@@ -44,6 +47,10 @@ struct alignas(64) MeshTouch {
     Vec3 spin{0, 0, 0};  // rad/s, of the surface, mean over the step
     double unused_two = 0;
 };
+static_assert(sizeof(MeshTouch) == MeshTouch::kNumbers * sizeof(double));
+static_assert(offsetof(MeshTouch, normal_before) == MeshTouch::kNormalBefore * sizeof(double));
+static_assert(offsetof(MeshTouch, velocity) == MeshTouch::kVelocity * sizeof(double));
+static_assert(offsetof(MeshTouch, spin) == MeshTouch::kSpin * sizeof(double));
 
 // Does what touch_walls() does for meshes. `at` holds the places of the contacts, up to a multiple of kBlock.
 // The second bodies of `in` are not read.

@@ -24,11 +24,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Keeps what is said about a picture.
+// Keeps the warnings about a picture.
 class Notes final : public SilentListener {
   public:
     explicit Notes(const Reporter& reporter) : reporter_(reporter) {}
-    void info(const std::string& text) override { lines.push_back(text); }
     void warning(const std::string& text) override { lines.push_back(text); }
     int stop_signal() const override { return reporter_.stop_signal(); }
 
@@ -107,7 +106,13 @@ class Desk {
         if (sets != sets_) open(sets);
         RenderRequest what = what_;
         if (asked.contains("frame")) what.frame = asked.at("frame").get<std::int64_t>();
-        if (!what.frame) what.at = asked.contains("at") ? asked.at("at").get<double>() : last();
+        if (asked.contains("cycle")) {
+            what.cycle = asked.at("cycle").get<double>();
+            what.phase = asked.value("phase", 0.0);
+            what.at = time_of_cycle(what, source_->clock(), source_->span().to);
+        } else if (!what.frame) {
+            what.at = asked.contains("at") ? asked.at("at").get<double>() : last();
+        }
         std::optional<OwnColours> own;
         if (asked.contains("colour")) own = own_colours(asked.at("colour"));
         if (const auto drawn = painter_->draw(what, own ? &*own : nullptr)) tell(*drawn);

@@ -3,12 +3,12 @@
 //
 // First the folder of the run and its last moment are written to stdout, as a JSON object in a line:
 // {"run": "output/mine", "last": 2.0}. Then each line of stdin asks for a picture:
-//   {"at": 0.1}                       s; or {"frame": 3}; neither: the last moment
+//   {"at": 0.1}                       s; or {"frame": 3}, or {"cycle": 40, "phase": 0.5}; else the last one
 //   {"set": ["film.size=640x480"]}    keys of its film, as after --set
 //   {"colour": {"title": "age (s)", "range": [0, 2], "map": "viridis", "logarithmic": false,
 //               "id": [0, 4], "value": [0.1, null]}}   own values; without `id` of all grains, by rising id
 // The answer is a line and then the picture's bytes, rows from the top, 4 bytes a pixel:
-//   {"width": 640, "height": 480, "transparent": false, "time": 0.1, "notes": []}
+//   {"width": 640, "height": 480, "transparent": false, "time": 0.1, "notes": ["a warning"]}
 // A mistake is a line without a picture: {"error": "..."}.
 #pragma once
 

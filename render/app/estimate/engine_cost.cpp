@@ -28,10 +28,6 @@ struct FittedCosts {
 
     // A step of a grain without contacts, and what each contact adds.
     double grain = 0.23, grain_without_spin = 0.115, grain_of_gas = 0.15, contact = 0.165;
-    // The part of a grain's cost that is for new lists of neighbours. A list lasts for a certain time, so
-    // shorter steps share it. The cost is `lists` while the time sqrt(diameter / g) has at most
-    // steps_of_lists steps; with more steps it decreases as 1 / steps.
-    double lists = 0.1, steps_of_lists = 5000;
     double step = 4.2;  // a step without its grains
     // A step of a grain costs up to large_bed times as much in a bed that does not fit into the caches. The
     // factor grows with the logarithm of the number of grains, from small_bed_grains to kLargeBed grains.
@@ -77,17 +73,11 @@ bool rubs(const PairPlan& pair) {
     return pair.model.tangential != TangentialLaw::none;
 }
 
-// What a grain saves on its lists when steps are short: `lists` at most.
-double saved_of_lists(const FilmedScene& scene, const Plan& plan) {
-    const double steps = std::sqrt(mean_diameter(scene) / scene.gravity.norm()) / plan.clock.step;
-    return fitted.lists * (1 - std::min(1.0, fitted.steps_of_lists / steps));
-}
-
 // Cost of a grain's step relative to the lattice.
 double grain_cost(const FilmedScene& scene, const Plan& plan, double contacts) {
     const PairPlan& pair = commonest(scene, plan);
     const double free = is_gas(scene) ? (rubs(pair) ? 1.0 : 0.5) * fitted.grain_of_gas
-                        : rubs(pair)  ? fitted.grain - saved_of_lists(scene, plan)
+                        : rubs(pair)  ? fitted.grain
                                       : fitted.grain_without_spin;
     const auto forces = static_cast<double>(scheme_of(plan.integrator).stages.size());
     const double beyond =

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/counted.hpp"
+#include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/points.hpp"
 #include "render/page/embed.hpp"
 
@@ -26,10 +27,25 @@ figure { margin: 0; border: 1px solid var(--line); border-radius: 4px; overflow:
 figure img, figure video { display: block; width: 100%; height: auto; background: white; }
 figcaption { padding: .4rem .6rem; font-size: .9rem; overflow-wrap: anywhere; }
 .table { overflow-x: auto; } table { border-collapse: collapse; }
+.charts img { background: white; }
 th, td { padding: .3rem .7rem; border-bottom: 1px solid var(--line); text-align: left; white-space: nowrap; }
 th { min-width: 6rem; vertical-align: bottom; white-space: normal; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; }
 li { overflow-wrap: anywhere; }
+@media (prefers-color-scheme: dark) {
+body { background: #12151b; color: #e8eaee; } a { color: #8cc4ff; }
+.charts img { filter: invert(.9) hue-rotate(180deg); }
+}
+@media print {
+:root { color-scheme: light; }
+body { max-width: none; padding: 0; font-size: 10pt; background: white; color: black; }
+.charts { grid-template-columns: 1fr 1fr; } .members { grid-template-columns: repeat(3, 1fr); }
+.charts img { filter: none; }
+figure, tr { break-inside: avoid; } h2 { break-after: avoid; }
+.table { overflow: visible; } table { font-size: 8pt; width: 100%; } th, td { padding: .15rem .35rem; }
+td { white-space: nowrap; } th { min-width: 0; } thead { display: table-header-group; }
+a { color: inherit; text-decoration: none; } .no-print { display: none; }
+}
 )";
 
 std::size_t count_of(const std::vector<MemberResult>& results, Status status) {
@@ -47,18 +63,45 @@ std::string summary(const Study& study, const std::vector<MemberResult>& results
     return text + ".";
 }
 
-std::string chart_figures(const Study& study, const std::vector<std::string>& stems) {
+// What is seen on a chart: for each series its first and its last point.
+std::string chart_words(const Study& study, const StudyChart& chart, const std::vector<ChartSeries>& all) {
+    const Variation& axis = study.variations[chart.x];
+    const auto place = [&](double x) {
+        return axis.numeric ? fmt::format("{:.4g}", x) : axis.values.at(static_cast<std::size_t>(x)).words;
+    };
+    std::string text = fmt::format("{} against {}", study.measures[chart.y].title(), axis.title());
+    const char* between = ": ";
+    for (const ChartSeries& series : all) {
+        std::vector<ChartPoint> points = series.points;
+        std::erase_if(points, [](const ChartPoint& point) { return point.y.count == 0; });
+        if (points.empty()) continue;
+        text += between + (series.name.empty() ? "" : "for " + series.name + " ");
+        text += fmt::format("{} at {}", interval_text(points.front().y), place(points.front().x));
+        if (points.size() > 1)
+            text += fmt::format(", {} at {}", interval_text(points.back().y), place(points.back().x));
+        between = "; ";
+    }
+    return text;
+}
+
+std::string chart_figures(const Study& study, const std::vector<Member>& members,
+                          const std::vector<MemberResult>& results, const std::vector<std::string>& stems) {
     std::string text;
-    for (const std::string& stem : stems)
+    for (const StudyChart& chart : study.charts) {
+        const std::string stem = chart_stem(chart);
+        if (std::find(stems.begin(), stems.end(), stem) == stems.end()) continue;
+        const std::vector<ChartSeries> series = chart_series(study, members, results, chart);
         text += fmt::format(
-            "<figure><a href=\"charts/{0}.svg\"><img src=\"charts/{0}.svg\" alt=\"{0}\"></a><figcaption>"
-            "<a href=\"charts/{0}.csv\">table</a>, <a "
+            "<figure><a href=\"charts/{0}.svg\"><img src=\"charts/{0}.svg\" alt=\"{1}\"></a><figcaption "
+            "class=\"no-print\"><a href=\"charts/{0}.csv\">table</a>, <a "
             "href=\"charts/{0}.png\">PNG</a></figcaption></figure>\n",
-            html_text(stem));
+            html_text(stem), html_text(chart_words(study, chart, series)));
+    }
     if (text.empty()) return "";
     const char* bars = study.has_intervals()
                            ? "<p>Points are means over seeds; bars are 95 % intervals of the mean "
-                             "(Student’s t).</p>\n"
+                             "(Student’s t). Where there are fewer than five seeds, small rings show each of "
+                             "them. Points of several series stand a little aside of each other.</p>\n"
                            : "";
     return fmt::format("<h2>Charts</h2>\n{}<div class=\"charts\">\n{}</div>\n", bars, text);
 }
@@ -74,12 +117,12 @@ std::vector<std::size_t> first_members(const std::vector<Member>& members) {
 std::string settings_table(const Study& study, const std::vector<Member>& members,
                            const std::vector<MemberResult>& results) {
     if (study.measures.empty()) return "";
-    std::string text = "<h2>Settings</h2>\n<div class=\"table\"><table>\n<tr>";
+    std::string text = "<h2>Settings</h2>\n<div class=\"table\"><table>\n<thead><tr>";
     for (const Variation& variation : study.variations)
-        text += fmt::format("<th>{}</th>", html_text(variation.label));
+        text += fmt::format("<th>{}</th>", html_text(variation.shown));
     for (const StudyMeasure& measure : study.measures)
         text += fmt::format("<th>{}</th>", html_text(measure.title()));
-    text += "<th>values</th></tr>\n";
+    text += "<th>values</th></tr></thead>\n";
     for (const std::size_t m : first_members(members)) {
         text += "<tr>";
         for (std::size_t i = 0; i < study.variations.size(); ++i)
@@ -113,7 +156,10 @@ std::string picture_of(const Member& member, const StudyFolder& folder, const st
 std::string posters(const Study& study, const std::vector<Member>& members, const StudyFolder& folder) {
     std::string text;
     for (const std::size_t m : first_members(members)) {
-        const std::string about = member_text(study, members[m]);
+        const std::string setting = shown_setting(study, members[m]);
+        const std::string about = members[m].seed ? fmt::format("{}{}seed {}", setting,
+                                                                setting.empty() ? "" : ", ", *members[m].seed)
+                                                  : setting;
         const std::string picture = picture_of(members[m], folder, about);
         if (!picture.empty())
             text +=
@@ -161,7 +207,7 @@ std::string study_page(const Study& study, const std::vector<Member>& members,
                "initial-scale=1\">\n<title>{0}</title>\n<style>{1}</style>\n</head>\n"
                "<body>\n<h1>{0}</h1>\n<p>{2} All of them: <a href=\"study.csv\">study.csv</a>.</p>\n",
                html_text(study.title), style, html_text(summary(study, results))) +
-           chart_figures(study, charts) + settings_table(study, members, results) +
+           chart_figures(study, members, results, charts) + settings_table(study, members, results) +
            posters(study, members, folder) + failures(study, members, results) + warnings(results) +
            "</body>\n</html>\n";
 }

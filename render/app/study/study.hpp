@@ -35,6 +35,7 @@ struct Variation {
     };
     std::string key;    // "drive.g_level"
     std::string label;  // the key, unless the study has words for it
+    std::string shown;  // what charts and pages call it: those words, or the key's name as films write it
     std::string place;
     std::vector<Value> values;
     bool numeric = false;  // all values are numbers, or quantities of the key's dimension
@@ -42,7 +43,7 @@ struct Variation {
 
     // The assignments to the scene for the value with that number.
     Assignments assignments(std::size_t number) const;
-    std::string title() const { return axis_title(label, unit); }
+    std::string title() const { return axis_title(shown, unit); }
 };
 
 // How a column of measures.csv becomes one number.

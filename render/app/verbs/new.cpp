@@ -36,7 +36,8 @@ class New final : public Verb {
   public:
     New()
         : Verb("new", "Write a commented scene file to start from",
-               "Beside it lies grainreel.schema.json, by which editors with taplo (Even Better TOML, for one)\n"
+               "Beside it lies grainreel.schema.json, by which editors with taplo (Even Better TOML, for "
+               "one)\n"
                "complete and check it. An existing file is never overwritten.\n"
                "Exit status: 0 done, 1 the file could not be written, 2 a mistake in the options.") {}
 

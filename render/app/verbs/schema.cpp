@@ -29,8 +29,7 @@ class Schema final : public Verb {
     }
 
     int run(Reporter&) override {
-        print_exact(kind_ == "study" ? json_schema(study_keys(), "A study for grainreel")
-                                     : scene_schema());
+        print_exact(kind_ == "study" ? json_schema(study_keys(), "A study for grainreel") : scene_schema());
         return 0;
     }
 

@@ -64,9 +64,9 @@ std::vector<std::string> playback_of(const ShotSource& source, const Comparison&
             all.by_schedule && (segments[k].kind == FilmSegment::Kind::motion ||
                                 (drive.present && drive.frequency == reference.frequency));
         const double rate = all.film.film.rate;
-        captions.push_back(as_planned
-                               ? playback_caption(played(segments[k], rate, schedule_clock(all)), drive, rate, say)
-                               : pacing_caption(inside, drive, rate, say));
+        captions.push_back(
+            as_planned ? playback_caption(played(segments[k], rate, schedule_clock(all)), drive, rate, say)
+                       : pacing_caption(inside, drive, rate, say));
     }
     return captions;
 }

@@ -70,6 +70,7 @@ class FollowedFiles final : public Followed {
     }
 
     void finish() override {
+        for (const std::string& line : import_->later_news()) listener_.warning(line);
         if (!unsound_.empty()) throw RunError(unsound_);
     }
 

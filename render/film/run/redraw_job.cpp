@@ -132,9 +132,8 @@ void RedrawJob::show_what_there_is() {
     for (const std::size_t segment : uneven) {
         std::vector<Due> inside = shots_;
         std::erase_if(inside, [&](const Due& shot) { return shot.segment != static_cast<int>(segment); });
-        captions_[segment] =
-            pacing_caption(moments_of(inside, source_.film()), scene_.drive, scene_.film.rate,
-                           scene_.film.wording);
+        captions_[segment] = pacing_caption(moments_of(inside, source_.film()), scene_.drive,
+                                            scene_.film.rate, scene_.film.wording);
     }
 }
 
@@ -144,8 +143,8 @@ void RedrawJob::choose_kept(const RenderRequest& what) {
     const std::optional<FilmSegment> segment = pacing_of(moments, scene_.drive, scene_.film.rate);
     for (const State& moment : moments) shots_.push_back({moment.step, 0});
     scene_.film.segments = {segment.value_or(FilmSegment())};
-    captions_ = {
-        segment ? playback_caption(*segment, scene_.drive, scene_.film.rate, scene_.film.wording) : ""};
+    captions_ = {segment ? playback_caption(*segment, scene_.drive, scene_.film.rate, scene_.film.wording)
+                         : ""};
 }
 
 std::vector<std::string> RedrawJob::warnings() const {

@@ -197,13 +197,13 @@ std::string pace_words(const FilmSegment& segment, const Drive& drive, double fi
     // With pictures on the way from one locked moment to the next, there are more frames than moments.
     const bool between = segment.between > 0;
     const std::string phase = fmt::format("{:.3g}", segment.phase);
-    const std::string often = segment.every == 1
-                                  ? say(between ? Word::moment_a_period : Word::frame_a_period, {phase})
-                                  : say(between ? Word::moment_every : Word::frame_every,
-                                        {std::to_string(segment.every), phase});
+    const std::string often =
+        segment.every == 1
+            ? say(between ? Word::moment_a_period : Word::frame_a_period, {phase})
+            : say(between ? Word::moment_every : Word::frame_every, {std::to_string(segment.every), phase});
     if (drive.changes()) return often;
-    const std::string pace = fmt::format(
-        "{:.4g}", film_rate * segment.every / ((segment.between + 1) * drive.frequency));
+    const std::string pace =
+        fmt::format("{:.4g}", film_rate * segment.every / ((segment.between + 1) * drive.frequency));
     return fmt::format("{} ({})", often, say(Word::plays, {pace}));
 }
 

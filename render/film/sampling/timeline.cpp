@@ -157,7 +157,8 @@ std::optional<FilmSegment> pacing_of(const std::vector<State>& moments, const Dr
 std::string pacing_caption(const std::vector<State>& moments, const Drive& drive, double rate,
                            const Wording& say) {
     if (moments.size() < 2) return {};
-    if (const auto segment = pacing_of(moments, drive, rate)) return playback_caption(*segment, drive, rate, say);
+    if (const auto segment = pacing_of(moments, drive, rate))
+        return playback_caption(*segment, drive, rate, say);
     const double interval = mean_interval(moments);
     if (interval <= 0) return {};
     if (drive.present && same_phase(moments, drive)) {

@@ -52,13 +52,13 @@ double least_letters(const Film& film);
 
 // Which parts of the picture are gutters for words, and which part shows the container.
 struct PictureLayout {
-    bool stacked = false;               // gutters above and below instead of left and right
-    TypeScale type{};                   // sizes of the words
-    Rectangle first;                    // left or top: title, legend, scale
-    Rectangle second;                   // right or bottom: time, drive, playback
-    Rectangle port;                     // the container
-    Rectangle caption;                  // the band below all of them, for film.caption; empty without captions
-    bool plates = false;                // the port is the whole picture, and words lie over it
+    bool stacked = false;  // gutters above and below instead of left and right
+    TypeScale type{};      // sizes of the words
+    Rectangle first;       // left or top: title, legend, scale
+    Rectangle second;      // right or bottom: time, drive, playback
+    Rectangle port;        // the container
+    Rectangle caption;     // the band below all of them, for film.caption; empty without captions
+    bool plates = false;   // the port is the whole picture, and words lie over it
     std::vector<std::string> left_out;  // words that there is no room for
 };
 // The layout in which the container has the whole picture and there are no words.

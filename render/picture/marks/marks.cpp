@@ -285,10 +285,10 @@ TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scal
         legend.arrow(arrow_scale(scene) * scale, Dimension::speed, palette.ink, legend.pen(),
                      over_periods(say(Word::mean_velocity), look.arrows.period, scene.film));
     if (look.streamlines.across > 0)
-        legend.line(palette.ink, widest_streamline(scene.film.height),
-                    say(Word::this_wide,
-                        {over_periods(say(Word::streamlines), look.streamlines.period, scene.film),
-                         quantity_text(look.streamlines.speed, Dimension::speed)}));
+        legend.line(
+            palette.ink, widest_streamline(scene.film.height),
+            say(Word::this_wide, {over_periods(say(Word::streamlines), look.streamlines.period, scene.film),
+                                  quantity_text(look.streamlines.speed, Dimension::speed)}));
     if (look.wall_forces.wanted)
         legend.arrow(wall_force_scale(scene) * scale, Dimension::force, palette.wall_force,
                      1.7 * legend.pen(), say(Word::force_on_wall));
@@ -298,7 +298,8 @@ TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scal
     if (look.force_chains)
         legend.line(palette.force, widest_line(scene.film.height),
                     say(Word::contact_force, {quantity_text(widest_force(scene), Dimension::force)}));
-    if (const std::string ringed = words_of_rings(look, say); !ringed.empty()) legend.ring(palette.accent, ringed);
+    if (const std::string ringed = words_of_rings(look, say); !ringed.empty())
+        legend.ring(palette.accent, ringed);
     return {wrap, legend.height()};
 }
 

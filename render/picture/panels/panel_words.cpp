@@ -207,7 +207,8 @@ std::vector<std::string> longest_panel_notes(const FilmedScene& scene) {
     std::vector<std::string> notes;
     if (!note.empty()) notes.push_back(note);
     if (scene.film.word_kinds.captions)
-        for (const FilmCaption& caption : scene.film.captions) notes.push_back(joined(note, longest_caption(caption)));
+        for (const FilmCaption& caption : scene.film.captions)
+            notes.push_back(joined(note, longest_caption(caption)));
     return notes;
 }
 

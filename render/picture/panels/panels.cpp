@@ -57,7 +57,8 @@ std::vector<std::string> drive_captions(const std::vector<FilmedScene>& scenes) 
         if (frequency) parts.push_back("f = " + frequency_text(scene.drive.frequency));
         if (level) parts.push_back(fmt::format("Γ = {:.3g}", g_level(scene)));
         if (amplitude && !level && !frequency) parts.push_back("a = " + length_text(scene.drive.amplitude));
-        captions.push_back(scene.drive.present ? fmt::format("{}", fmt::join(parts, ", ")) : say(Word::no_vibration));
+        captions.push_back(scene.drive.present ? fmt::format("{}", fmt::join(parts, ", "))
+                                               : say(Word::no_vibration));
     }
     return captions;
 }

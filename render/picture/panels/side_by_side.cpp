@@ -209,8 +209,7 @@ void SideBySide::Impl::write_note(std::size_t panel, const Shot& frame) {
     for (const std::string& longest : longest_panel_notes(scenes[panel]))
         widest = std::max(widest, width_of(longest));
     const double x = std::max(1.0, 0.5 * (part.width - widest));
-    renew(part,
-          [&](const Writer& on) { note_block(on, note, x, 0, part.width - 2, panel_note_lines); });
+    renew(part, [&](const Writer& on) { note_block(on, note, x, 0, part.width - 2, panel_note_lines); });
     notes[panel] = std::move(note);
 }
 

@@ -46,9 +46,9 @@ struct PlotRange {
     Dimension dimension = Dimension::number;
     std::array<double, 2> time{0, 1};            // s, of the whole run
     std::optional<std::array<double, 2>> range;  // SI
-    bool smooth = false;        // the line is the mean over the last period; the rows lie faint behind it
-    bool from_zero = false;     // the values' axis begins at 0
-    double expected = 0;        // SI: a value that the values' unit must suit
+    bool smooth = false;     // the line is the mean over the last period; the rows lie faint behind it
+    bool from_zero = false;  // the values' axis begins at 0
+    double expected = 0;     // SI: a value that the values' unit must suit
     std::string time_name = "time";
     int width = 0, height = 0;  // pixels
 };
@@ -110,7 +110,7 @@ class Plot final : public SidePlot {
     std::size_t rows_ = 0;
     std::deque<std::array<double, 2>> period_;  // time (in periods) and value of the last period's rows
     bool any_ = false;
-    std::optional<std::string> unit_;  // of the values, the same in all pictures
+    std::optional<std::string> unit_;             // of the values, the same in all pictures
     std::array<double, 2> limits_{0, 1};          // SI, of the rows
     std::optional<std::array<double, 2>> shown_;  // limits that show() has set in place of limits_
     std::array<double, 2> last_{0, 0};            // time and value of the line's end

@@ -76,7 +76,8 @@ bool ProfilePlot::take(const Shot& frame) {
 
 ProfilePlot::Axis ProfilePlot::place_axis() const {
     const std::string unit = fitting_unit(std::max(-places_[0], places_[1]), Dimension::length);
-    return {places_, with_unit(scene_.film.wording(plot_.across ? Word::across : Word::height), unit), unit_size(unit, Dimension::length)};
+    return {places_, with_unit(scene_.film.wording(plot_.across ? Word::across : Word::height), unit),
+            unit_size(unit, Dimension::length)};
 }
 
 ProfilePlot::Axis ProfilePlot::value_axis() const {

@@ -116,7 +116,8 @@ namespace {
 // along -x.
 void draw_direction(const Writer& writer, const Vec3& along, const View* view, double x, double y,
                     double reach, bool both) {
-    const double across = view ? along.dot(view->right) : along.y(), up = view ? along.dot(view->up) : along.z();
+    const double across = view ? along.dot(view->right) : along.y(),
+                 up = view ? along.dot(view->up) : along.z();
     const double away = view ? along.dot(view->forward) : -along.x();
     set_colour(writer.on, both ? writer.palette.accent : writer.palette.ink);
     if (std::hypot(across, up) < 0.2)
@@ -141,8 +142,8 @@ TextSize shaking_block(const Writer& writer, const FilmedScene& scene, const std
         writer.write_below(words, x + indent, y, numbers, writer.minor(), writer.palette.ink);
     const TextSize size{indent + words.width, std::max(words.height, 2.2 * writer.type.main)};
     if (writer.on)
-        draw_direction(writer, scene.drive.direction, view, x + 0.75 * writer.type.main, y + 0.5 * size.height,
-                       reach, true);
+        draw_direction(writer, scene.drive.direction, view, x + 0.75 * writer.type.main,
+                       y + 0.5 * size.height, reach, true);
     return size;
 }
 
@@ -167,13 +168,13 @@ TextSize arrows_block(const Writer& writer, const FilmedScene& scene, const View
         };
     };
     const Wording& say = scene.film.wording;
-    if (scene.gravity.norm() > 0)
-        entry(say(Word::gravity), direction(scene.gravity.normalized(), false));
+    if (scene.gravity.norm() > 0) entry(say(Word::gravity), direction(scene.gravity.normalized(), false));
     if (!scene.drive.present) return size;
     if (!scene.film.word_kinds.shaking)
         entry(say(word_of_shaking(scene.drive)), direction(scene.drive.direction, true));
     if (has_lab_marks(scene))
-        entry(say(Word::floor), [&](double at_x, double at_y) { lab_mark_sample(writer, at_x, at_y, reach); });
+        entry(say(Word::floor),
+              [&](double at_x, double at_y) { lab_mark_sample(writer, at_x, at_y, reach); });
     return size;
 }
 
@@ -210,8 +211,9 @@ TextSize drive_block(const Writer& writer, const FilmedScene& scene, const State
     std::vector<std::string> lines;
     const WordKinds& kinds = scene.film.word_kinds;
     if (kinds.shaking) {
-        const std::string numbers =
-            kinds.drive ? "" : frame ? shaking_text(scene, *frame) : longest_shaking_text(scene);
+        const std::string numbers = kinds.drive ? ""
+                                    : frame     ? shaking_text(scene, *frame)
+                                                : longest_shaking_text(scene);
         size = shaking_block(writer, scene, numbers, view, x, y);
     }
     if (kinds.drive) lines = frame ? drive_lines(scene, *frame) : longest_drive_lines(scene);
@@ -259,8 +261,8 @@ std::vector<std::string> clock_lines(const FilmedScene& scene, const State& fram
         lines.push_back(say(Word::phase, {fmt::format("{:.2f}", shown.phase)}));
     }
     if (scene.container.tray && kinds.counts)
-        lines.push_back(say(Word::in_the_tray,
-                            {std::to_string(count_in_tray(frame)), std::to_string(frame.size())}));
+        lines.push_back(
+            say(Word::in_the_tray, {std::to_string(count_in_tray(frame)), std::to_string(frame.size())}));
     return lines;
 }
 

@@ -175,8 +175,7 @@ PictureLayout plan_layout(const FilmedScene& scene) {
     PictureLayout& layout = best.layout;
     layout.plates =
         words == WordPlace::plates || (words == WordPlace::automatic && scene.film.camera.framed_by_user());
-    if (layout.plates)
-        layout.port = {0, 0, scene.film.width, scene.film.height - layout.caption.height};
+    if (layout.plates) layout.port = {0, 0, scene.film.width, scene.film.height - layout.caption.height};
     return layout;
 }
 

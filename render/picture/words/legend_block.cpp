@@ -137,8 +137,7 @@ class Entries {
         };
         if (i == shown) {
             line(scene_.film.wording(Word::more_species, {std::to_string(scene_.species.size() - i)}),
-                 writer_.minor(),
-                 writer_.palette.faint_ink);
+                 writer_.minor(), writer_.palette.faint_ink);
             return size;
         }
         const Species& species = scene_.species[i];
@@ -160,8 +159,8 @@ class Entries {
             return draw_lit_ball(writer_.on, x, y, radius,
                                  [&](double share) { return scale.at_share(share); });
         }
-        const bool plain = colouring.by == GrainValue::species ||
-                           (colouring.of_grains() && !colouring.colours(i));
+        const bool plain =
+            colouring.by == GrainValue::species || (colouring.of_grains() && !colouring.colours(i));
         const Colour own = plain ? scene_.colours[i] : neutral_grain;
         draw_lit_ball(writer_.on, x, y, radius, [&](double) { return own; });
     }

@@ -75,7 +75,7 @@ void Overlay::draw_still_numbers(const View& view) {
     const Writer writer{on.get(), type_, palette_};
     if (plan_.has_dial)
         dial_block(writer, scene_.drive, nullptr, plan_.radius, plan_.dial.x, plan_.dial.y, &view);
-    if (!drive_lines_change(scene_.drive)) 
+    if (!drive_lines_change(scene_.drive))
         drive_block(writer, scene_, nullptr, &view, plan_.drive.x, plan_.drive.y);
     if (layout_.stacked && plan_.has_arrows)
         arrows_block(writer, scene_, &view, plan_.arrows.x, plan_.arrows.y);
@@ -123,8 +123,7 @@ void Overlay::write(Picture& picture, const Shot& frame, const std::string& play
         put(first_.get(), {0, 0, layout_.first.width, layout_.first.height}, layout_.first, picture);
         put(still_.get(), {0, 0, layout_.second.width, layout_.second.height}, layout_.second, picture);
     }
-    const std::string clock = clock_words(scene_, frame),
-                      pace = playback_text(scene_.film, frame, playback);
+    const std::string clock = clock_words(scene_, frame), pace = playback_text(scene_.film, frame, playback);
     if (!written_ || clock != clock_)
         renew(picture, plan_.clock_part, [&](cairo_t* on) {
             clock_block({on, type_, palette_}, scene_, frame, plan_.clock.x, plan_.clock.y);

@@ -13,8 +13,8 @@ namespace grainreel {
 
 namespace {
 
-constexpr double most_plot = 0.4;    // of the picture's height
-constexpr double least_box = 0.125;  // height of a plot's box as a share of the picture's shorter side
+constexpr double most_plot = 0.4;         // of the picture's height
+constexpr double least_box = 0.125;       // height of a plot's box as a share of the picture's shorter side
 constexpr double least_letters = 11;      // width of a plot in a row, in heights of minor letters
 constexpr double most_plot_width = 0.24;  // of the picture's width
 constexpr double plot_width = 0.2;        // in a gutter at the side, as a share of the picture's width
@@ -70,10 +70,10 @@ class Planner {
     }
     double note_height(double wrap) const {
         const std::string note = longest_note(scene_);
-        return note.empty() ? 0
-                            : note_block(measure_, note, 0, 0, wrap, note_lines).height + type_.gap;
+        return note.empty() ? 0 : note_block(measure_, note, 0, 0, wrap, note_lines).height + type_.gap;
     }
-    // Pixels: the least height of a plot of this width, with its title, ticks and the name of the axis of time.
+    // Pixels: the least height of a plot of this width, with its title, ticks and the name of the axis of
+    // time.
     double least_plot(double wide) const {
         double title = 0;
         for (const FilmPlot& plot : scene_.film.shows.plots)

@@ -241,16 +241,17 @@ const KeyTable<Film>& picture_table() {
             .written_at(1),
         text("title", &Film::title, note("`title`"), "Shown on the frame; \"\" for none.")
             .usually([](Film& film, const Scene& scene) { film.title = scene.title; }),
-        bound_by<Film>(choice("lang", all_of(language_words()), literal("\"en\""),
-                              "Language of the fixed words of films and pages; [film.wording] has your own."),
-                       [](Document& document, const Scene&, const std::string& path, Film& film) {
-                           const auto word = document.text(path);
-                           for (const auto& [said, language] : language_words())
-                               if (word && *word == said) film.wording.language = language;
-                       },
-                       [](const Film& film, const Scene&) {
-                           return quoted(word_of(film.wording.language, language_words()));
-                       })
+        bound_by<Film>(
+            choice("lang", all_of(language_words()), literal("\"en\""),
+                   "Language of the fixed words of films and pages; [film.wording] has your own."),
+            [](Document& document, const Scene&, const std::string& path, Film& film) {
+                const auto word = document.text(path);
+                for (const auto& [said, language] : language_words())
+                    if (word && *word == said) film.wording.language = language;
+            },
+            [](const Film& film, const Scene&) {
+                return quoted(word_of(film.wording.language, language_words()));
+            })
             .unwritten_if([](const Film& film) { return film.wording.language == Language::en; }),
     };
     return table;

@@ -30,8 +30,7 @@ std::string braces(int parts) {
 
 void list_wording(keys::Keys& all) {
     for_each_word([&](Word word) {
-        Key key = keys::entry(path_of(word), KeyKind::text,
-                              {quoted(english_of(word)), ""}, "");
+        Key key = keys::entry(path_of(word), KeyKind::text, {quoted(english_of(word)), ""}, "");
         key.most_letters = most_letters;
         all.push_back(std::move(key));
     });
@@ -47,7 +46,9 @@ void read_wording(Document& document, FilmedScene& scene) {
             document.fail(path, parts == 0 ? "has a brace, but nothing is put in; take it out"
                                            : fmt::format("must have {} like \"{}\", but is {}", braces(parts),
                                                          english_of(word), document.written_value(path)));
-        scene.film.wording.own.push_back({word, *text});
+        // The table's own text changes nothing, and is not kept.
+        const Wording table{scene.film.wording.language, {}};
+        if (*text != table(word, {"{1}", "{2}"})) scene.film.wording.own.push_back({word, *text});
     });
 }
 

@@ -130,7 +130,7 @@ TEST_F(CompareProgram, FinishedRunsLackNothing) {
         ASSERT_EQ(program({"movie", name + ".toml", "--no-film", "--out", name}).status, 0);
     }
     const std::vector<std::string> options = {
-        "--frames", "--no-film", "--set", "film.size=640x480", "--set", "film.camera.frame=container"};
+        "--frames", "--no-film", "--set", "film.size=720x540", "--set", "film.camera.frame=container"};
     const auto compare = [&](const std::string& first, const std::string& second, const std::string& out) {
         std::vector<std::string> words = {"compare", first, second, "--out", out};
         words.insert(words.end(), options.begin(), options.end());
@@ -351,7 +351,7 @@ TEST_F(CompareProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     write("full.toml", "g_level = 3");
     ASSERT_EQ(program({"movie", "weak.toml", "--no-film", "--out", "run"}).status, 0);
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{"compare"}, "SCENE is required"},
+        {{"compare"}, "compare needs a scene"},
         {{"compare", "weak.toml"}, "compare takes 2 to 6 scenes or folders of runs, not 1"},
         {{"compare", "run", "run", "run", "run", "run", "run", "run"}, "not 7"},
         {{"compare", "weak.toml", "missing.toml"}, "missing.toml: "},

@@ -219,7 +219,7 @@ TEST_F(MovieProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
         {{}, "no command; there are movie, "},
         {{"draw", fifty}, "unknown command 'draw'; there are movie, "},
-        {{"movie"}, "SCENE is required"},
+        {{"movie"}, "movie needs a scene; type"},
         {{"movie", "missing.toml"}, "missing.toml: "},
         {{"movie", "broken.toml"}, "broken.toml:1:"},
         {{"movie", fifty, "--bogus"}, "--bogus"},

@@ -8,6 +8,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/plan/reach.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/keys/keys.hpp"
@@ -105,11 +106,40 @@ std::size_t count_members(const Study& study, bool many_are_meant) {
     return static_cast<std::size_t>(count);
 }
 
+namespace {
+
+// The height that the pictures of all settings reach: the highest of all, so that they have one scale and one
+// layout. None where a setting's camera frames something else.
+class SharedReach {
+  public:
+    void add_setting(const FilmedScene& scene) {
+        const Camera& camera = scene.film.camera;
+        const std::optional<double> reach = camera.reach ? camera.reach : estimated_reach(scene);
+        ++settings_;
+        if (camera.frame != FramingScope::reach || camera.position || !reach)
+            alike_ = false;
+        else
+            highest_ = std::max(highest_, *reach);
+    }
+    Assignments keys() const {
+        if (!alike_ || settings_ < 2) return {};
+        return {fmt::format("film.camera.reach={:.6g}", highest_)};
+    }
+
+  private:
+    std::size_t settings_ = 0;
+    double highest_ = 0;  // m
+    bool alike_ = true;
+};
+
+}  // namespace
+
 std::vector<Member> make_members(const Study& study, const AcceptSetting& accept) {
     count_members(study, true);  // throws when there are too many
     std::size_t settings = 1;
     for (const Variation& variation : study.variations) settings *= variation.values.size();
     std::vector<Member> members;
+    SharedReach reach;
     std::map<std::uint64_t, std::size_t> known;  // the member with each hash
     for (std::size_t setting = 0; setting < settings; ++setting) {
         Member member;
@@ -124,6 +154,7 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
             read_filmed_scene_text(study.scene_text, study.scene, member.sets, measurable_in);
         const Plan plan = plan_with_film(scene);
         accept(scene, plan);
+        reach.add_setting(scene);
         // Members read a copy of the scene, and relative paths would count from the folder of the copy.
         if (scene.start.method == Start::Method::file)
             member.sets.push_back("start.file=" +
@@ -144,17 +175,31 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
             members.push_back(std::move(seeded));
         }
     }
+    for (Member& member : members) member.framing = reach.keys();
     return members;
 }
 
-std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without) {
+namespace {
+
+std::string setting_named(const Study& study, const Member& member, std::optional<std::size_t> without,
+                          std::string Variation::*name) {
     std::string text;
     for (std::size_t i = 0; i < member.at.size(); ++i) {
         if (i == without) continue;
-        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", study.variations[i].label,
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", study.variations[i].*name,
                             study.variations[i].values[member.at[i]].words);
     }
     return text;
+}
+
+}  // namespace
+
+std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without) {
+    return setting_named(study, member, without, &Variation::label);
+}
+
+std::string shown_setting(const Study& study, const Member& member, std::optional<std::size_t> without) {
+    return setting_named(study, member, without, &Variation::shown);
 }
 
 std::string member_text(const Study& study, const Member& member) {

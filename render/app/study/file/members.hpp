@@ -32,7 +32,8 @@ struct Member {
     std::vector<std::size_t> at;  // for each variation, the index of the value
     std::size_t seed_index = 0;
     std::optional<std::uint64_t> seed;
-    Assignments sets;  // keys to set: for the whole study, then by the values, the start file, the seed
+    Assignments sets;     // keys to set: for the whole study, then by the values, the start file, the seed
+    Assignments framing;  // the keys that let the pictures of all members show the same part
     std::vector<MemberFile> files;
     // Name of its folder: a short description, and a hash of its complete scene without what does not change
     // its numbers (film, title, name, threads). When a study was changed, this hash tells which members are
@@ -53,6 +54,8 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
 // The setting in words: "drive.g_level = 3, species.nut.diameter = 9 mm"; empty when only seeds are varied.
 // without: a variation that is left out.
 std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without = {});
+// The same with the names that charts and pages have: "Γ = 3, d of nut = 9 mm".
+std::string shown_setting(const Study& study, const Member& member, std::optional<std::size_t> without = {});
 // The setting with the seed.
 std::string member_text(const Study& study, const Member& member);
 

@@ -1,6 +1,7 @@
 #include "render/app/study/file/variations.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -215,13 +216,29 @@ void read_range(Document& document, const std::string& table, Variation& variati
 
 }  // namespace
 
+std::string name_in_films(const std::string& key) {
+    const std::string last = name_of(key), table = parent_of(key);
+    if (key == "drive.g_level") return "Γ";
+    if (key == "drive.frequency") return "f";
+    if (key == "drive.amplitude") return "a";
+    std::string words = last;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    if (table.starts_with("species."))
+        return fmt::format("{} of {}", last == "diameter" ? "d" : words,
+                           table.substr(std::size("species.") - 1));
+    if (table == "contact.wall") return "wall " + words;
+    return words;
+}
+
 void read_variation(Document& document, const std::string& table, Study& study) {
     Variation variation;
     variation.key = document.required_text(table + ".key");
     variation.place = document.place(table + ".key");
     check_varied_key(document, table, variation, study);
     const Key& key = key_of_scene(study.scene_text, study.scene, variation.key, variation.place);
-    variation.label = document.text(table + ".label").value_or(variation.key);
+    const auto own = document.text(table + ".label");
+    variation.label = own.value_or(variation.key);
+    variation.shown = own.value_or(name_in_films(variation.key));
     if (document.has(table + ".values"))
         read_values(document, table, variation);
     else
@@ -278,7 +295,7 @@ Seeds read_seeds(Document& document, const std::string& path) {
 
 void read_variants(Document& document, Study& study) {
     Variation variants;
-    variants.key = variants.label = variant_axis;
+    variants.key = variants.label = variants.shown = variant_axis;
     for (std::size_t i = 0; i < document.size("variant"); ++i)
         variants.values.push_back(read_variant(document, fmt::format("variant[{}]", i), variants));
     if (variants.values.empty()) return;

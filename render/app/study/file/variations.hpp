@@ -43,6 +43,9 @@ void make_numeric(Variation& variation, const Key& key);
 // These are for read_study(), in the order in which it calls them. Each throws UserError with the place of
 // the mistake.
 
+// The name of a key as films write it: "Γ", "d of nut", "friction"; without the table it lies in.
+std::string name_in_films(const std::string& key);
+
 // Reads the seeds at that path, given as a number of seeds or a list; none when the key is absent.
 Seeds read_seeds(Document& document, const std::string& path);
 // Makes all [[variant]] the first variation. To be called before the others are read.

@@ -277,6 +277,10 @@ std::vector<std::string> run_command(const Study& study, const Member& member, c
         words.push_back("--set");
         words.push_back(assignment.text);
     }
+    for (const Assignment& assignment : member.framing) {
+        words.push_back("--set");
+        words.push_back(assignment.text);
+    }
     for (const MemberFile& file : member.files) {
         words.push_back("--set");
         words.push_back(file.key + "=" + quoted(folder.copy_of(file).string()));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -70,25 +71,65 @@ std::string reference_table(const std::vector<ReferencePoint>& points) {
     return text;
 }
 
+// Several series stand a little aside of each other, so that their intervals do not lie on each other.
+struct Aside {
+    std::size_t series = 1;
+    bool logarithmic = false;
+    double step = 0;  // from one series to the next, in units of the axis; a factor on a logarithmic axis
+    // The place of a series' points along x, as gnuplot computes it from a column.
+    std::string of(const std::string& column, std::size_t number) const {
+        const double steps = static_cast<double>(number) - 0.5 * static_cast<double>(series - 1);
+        if (series < 2 || steps == 0) return column;
+        return logarithmic ? fmt::format("{}*{:.9g}", column, std::pow(step, steps))
+                           : fmt::format("({}{:+.9g})", column, step * steps);
+    }
+};
+
+Aside aside_of(const StudyChart& chart, const std::vector<ChartSeries>& series) {
+    constexpr double share = 0.012, widest = 0.06;  // of the axis: one step; all series together
+    std::optional<std::array<double, 2>> span;
+    for (const ChartSeries& each : series)
+        for (const ChartPoint& point : each.points) {
+            if (!span) span = {point.x, point.x};
+            span = {std::min((*span)[0], point.x), std::max((*span)[1], point.x)};
+        }
+    Aside aside{series.size(), chart.log_x, 0};
+    if (!span || series.size() < 2) return aside;
+    const double step = std::min(share, widest / static_cast<double>(series.size() - 1));
+    aside.step = chart.log_x ? std::pow((*span)[1] / (*span)[0], step) : step * ((*span)[1] - (*span)[0]);
+    return aside;
+}
+
 // Plots a series: its line and points, and over them the error bars of points that have them.
 std::string plot_series(const std::string& table, const ChartSeries& series, std::size_t number,
-                        const Look& look) {
+                        const Look& look, const Aside& aside) {
     const std::string style = fmt::format("lc rgb '{}' lw {}", colours[number % colours.size()], look.pen);
     const int mark = marks[number % marks.size()];
     const std::string title =
         series.name.empty() ? "notitle" : "title " + gnuplot_lines(series.name, look.lines.key);
+    const std::string x = fmt::format("(column(1)=={} ? {} : NaN)", number, aside.of("column(2)", number));
     return fmt::format(
-        "{0} using (column(1)=={1} ? column(2) : NaN):3 with linespoints pt {2} ps 0.9 {3} {4}, \\\n"
-        "    {0} using (column(1)=={1} ? column(2) : NaN):3:4:5 with yerrorbars pt {2} ps 0.9 {3} notitle",
-        table, number, mark, style, title);
+        "{0} using {1}:3 with linespoints pt {2} ps 0.9 {3} {4}, \\\n"
+        "    {0} using {1}:3:4:5 with yerrorbars pt {2} ps 0.9 {3} notitle",
+        table, x, mark, style, title);
+}
+
+// Plots the single seeds of a series as small open points.
+std::string plot_seeds(const std::string& table, std::size_t number, const Look& look, const Aside& aside) {
+    return fmt::format(
+        "{} using (column(1)=={} ? {} : NaN):3 with points pt 6 ps 0.5 lc rgb '{}' lw {} notitle", table,
+        number, aside.of("column(2)", number), colours[number % colours.size()], 0.5 * look.pen);
 }
 
 std::string plots_of(const StudyChart& chart, const std::vector<ChartSeries>& series, bool has_reference,
                      const Look& look) {
     const std::string stem = chart_stem(chart), table = gnuplot_text(stem + ".csv");
+    const Aside aside = aside_of(chart, series);
     std::string plots;
     for (std::size_t s = 0; s < series.size(); ++s)
-        plots += (s > 0 ? ", \\\n    " : "") + plot_series(table, series[s], s, look);
+        plots += (s > 0 ? ", \\\n    " : "") + plot_series(table, series[s], s, look, aside);
+    for (std::size_t s = 0; s < series.size() && has_seeds(series); ++s)
+        plots += ", \\\n    " + plot_seeds(gnuplot_text(stem + ".seeds.csv"), s, look, aside);
     if (has_reference)
         plots += fmt::format(
             ", \\\n    {0} using 1:2:3 with yerrorbars pt 6 ps 1.1 lw 1.5 lc rgb 'black' title {1}",
@@ -129,6 +170,24 @@ std::string chart_stem(const StudyChart& chart) {
     return file_name_part(chart.name);
 }
 
+bool has_seeds(const std::vector<ChartSeries>& series) {
+    return std::any_of(series.begin(), series.end(), [](const ChartSeries& each) {
+        return std::any_of(each.points.begin(), each.points.end(), [](const ChartPoint& point) {
+            return point.values.size() > 1 && point.values.size() <= few_values;
+        });
+    });
+}
+
+std::string seed_table(const std::vector<ChartSeries>& series) {
+    std::string text = "series,x,value\n";
+    for (std::size_t s = 0; s < series.size(); ++s)
+        for (const ChartPoint& point : series[s].points)
+            if (point.values.size() > 1 && point.values.size() <= few_values)
+                for (const double value : point.values)
+                    text += fmt::format("{},{},{}\n", s, point.x, gnuplot_number(value));
+    return text;
+}
+
 std::string chart_table(const std::vector<ChartSeries>& series) {
     std::string text = "series,x,mean,low,high,values,members,name\n";
     for (std::size_t s = 0; s < series.size(); ++s)
@@ -144,7 +203,7 @@ std::string chart_commands(const Study& study, const StudyChart& chart,
                            const std::vector<ChartSeries>& series, bool has_reference) {
     const std::string stem = chart_stem(chart);
     std::string text = fmt::format("# Draws the table beside it: gnuplot {}.gp\n", stem);
-    text += "set encoding utf8\nset datafile separator ','\nset datafile missing 'NaN'\nset grid\n";
+    text += paper_style();
     text += axes_and_key(study, chart, series, has_reference, screen);
     text += fmt::format(
         "do for [form in 'svg png'] {{\n"
@@ -168,6 +227,7 @@ DrawnCharts draw_charts(const Study& study, const std::vector<Member>& members,
         const std::string stem = chart_stem(chart);
         replace_file(folder / (stem + ".csv"), chart_table(series));
         if (!has_points(series)) continue;
+        if (has_seeds(series)) replace_file(folder / (stem + ".seeds.csv"), seed_table(series));
         if (!references[i].empty())
             replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
         replace_file(folder / (stem + ".gp"), chart_commands(study, chart, series, !references[i].empty()));
@@ -195,6 +255,7 @@ std::vector<std::filesystem::path> print_charts(const Study& study, const std::v
         const std::string stem = chart_stem(chart);
         const bool has_reference = !references[i].empty();
         replace_file(folder / (stem + ".csv"), chart_table(series));
+        if (has_seeds(series)) replace_file(folder / (stem + ".seeds.csv"), seed_table(series));
         if (has_reference) replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
         for (auto& file : draw_on_paper(
                  folder, stem, paper_style() + axes_and_key(study, chart, series, has_reference, look),

@@ -17,6 +17,10 @@ std::string chart_stem(const StudyChart& chart);
 // commands count on this order of columns. low and high are the ends of the 95 % interval.
 std::string chart_table(const std::vector<ChartSeries>& series);
 
+// The single values of points that have few of them, "series,x,value", in NAME.seeds.csv.
+bool has_seeds(const std::vector<ChartSeries>& series);
+std::string seed_table(const std::vector<ChartSeries>& series);
+
 // The commands for gnuplot. They run in the table's folder, where points from elsewhere lie in
 // NAME.reference.csv.
 std::string chart_commands(const Study& study, const StudyChart& chart,

@@ -35,7 +35,7 @@ std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Memb
     std::vector<std::string> names;  // in order of appearance
     std::map<std::pair<std::string, double>, Sample> samples;
     for (std::size_t m = 0; m < members.size(); ++m) {
-        const std::string name = setting_text(study, members[m], chart.x);
+        const std::string name = shown_setting(study, members[m], chart.x);
         const std::size_t value = members[m].at[chart.x];
         const double x = axis.numeric ? axis.values[value].number : static_cast<double>(value);
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -45,8 +45,12 @@ std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Memb
     for (const std::string& name : names) {
         ChartSeries series{name, {}};
         for (auto at = samples.lower_bound({name, -std::numeric_limits<double>::infinity()});
-             at != samples.end() && at->first.first == name; ++at)
-            series.points.push_back({at->first.second, mean_interval(at->second.values), at->second.members});
+             at != samples.end() && at->first.first == name; ++at) {
+            std::vector<double> finite = at->second.values;
+            std::erase_if(finite, [](double value) { return !std::isfinite(value); });
+            series.points.push_back(
+                {at->first.second, mean_interval(at->second.values), at->second.members, std::move(finite)});
+        }
         all.push_back(std::move(series));
     }
     return all;
@@ -64,8 +68,23 @@ MeanInterval setting_interval(const std::vector<Member>& members, const std::vec
 
 std::string interval_text(const MeanInterval& interval) {
     if (interval.count == 0) return "–";
-    if (interval.count == 1) return fmt::format("{:.4g}", interval.mean);
-    return fmt::format("{:.4g} ± {:.2g}", interval.mean, interval.half);
+    const auto with_minus = [](std::string text) {
+        return text.starts_with('-') ? "−" + text.substr(1) : text;
+    };
+    if (interval.count == 1) return with_minus(fmt::format("{:.4g}", interval.mean));
+    const double half = interval.half;
+    if (!(half > 0) || !std::isfinite(half))
+        return fmt::format("{} ± {:.2g}", with_minus(fmt::format("{:.4g}", interval.mean)), half);
+    // Two digits of the half: 0.0312 has three decimals, 312 is rounded to tens.
+    const int decimals = 1 - static_cast<int>(std::floor(std::log10(half) + 1e-12));
+    const double digit = std::pow(10, -decimals);
+    const auto rounded = [&](double value) {
+        const double shown = std::round(value / digit) * digit;
+        return with_minus(fmt::format("{:.{}f}", shown == 0 ? 0 : shown, std::max(0, decimals)));
+    };
+    if (std::abs(interval.mean) >= 1e6 || half < 1e-4)
+        return fmt::format("{} ± {:.2g}", with_minus(fmt::format("{:.4g}", interval.mean)), half);
+    return fmt::format("{} ± {}", rounded(interval.mean), rounded(half));
 }
 
 std::vector<ReferencePoint> read_reference(const std::filesystem::path& file) {

@@ -15,8 +15,12 @@ namespace grainreel {
 struct ChartPoint {
     double x = 0;  // in the axis' unit; for an axis of words the number of the word, from 0
     MeanInterval y;
-    std::size_t members = 0;  // number of complete members; y.count of them have a value
+    std::size_t members = 0;          // number of complete members; y.count of them have a value
+    std::vector<double> values = {};  // of the seeds; those that are not finite are left out
 };
+
+// So few values are drawn one by one beside their mean: an interval of two to four says little.
+constexpr std::size_t few_values = 4;
 
 // One line of a chart: all settings that differ in x alone.
 struct ChartSeries {
@@ -30,8 +34,8 @@ std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Memb
 MeanInterval setting_interval(const std::vector<Member>& members, const std::vector<MemberResult>& results,
                               std::size_t setting, std::size_t measure);
 
-// The interval as text: "0.412 ± 0.031", the mean and half of its 95 % interval. For one value it is the
-// value alone, for none a dash.
+// The interval as text: "0.412 ± 0.031", the mean and half of its 95 % interval. The half has two digits, and
+// the mean as many decimals. For one value it is the value alone, for none a dash.
 std::string interval_text(const MeanInterval& interval);
 
 // A point from elsewhere, which a chart shows for comparison.

@@ -149,7 +149,7 @@ def read_contacts(file: Path, times: Callable[[], Any]) -> xarray.Dataset:
 
 
 def one_frame(trajectory: xarray.Dataset, number: int) -> xarray.Dataset:
-    """A frame as a table: the grains that are there then, one a row."""
+    """A frame as a table: the grains that are there then, one a row, in the order of their ids, which are its index."""
     frame = trajectory.isel(frame=number)
     frame = frame.drop_vars([name for name, variable in frame.variables.items() if variable.dims not in ((), ("atom",))])
     frame = frame.load()  # netCDF4 gives arrays of another shape where no grain is asked for
@@ -159,8 +159,12 @@ def one_frame(trajectory: xarray.Dataset, number: int) -> xarray.Dataset:
         held = numpy.arange(frame.sizes["atom"]) < int(frame.variables["grains"].values)
     else:
         held = numpy.ones(frame.sizes["atom"], bool)
-    frame = frame.isel(atom=numpy.flatnonzero(held))
-    return frame.set_coords([name for name in ("id", "species") if name in frame.variables])
+    places = numpy.flatnonzero(held)
+    if "id" not in frame.variables:
+        return frame.isel(atom=places).set_coords([name for name in ("species",) if name in frame.variables])
+    ids = frame.variables["id"].values[places]
+    frame = frame.isel(atom=places[numpy.argsort(ids, kind="stable")])
+    return frame.set_coords([name for name in ("id", "species") if name in frame.variables]).set_xindex("id")
 
 
 def table_of_grains(trajectory: xarray.Dataset) -> Any:

@@ -65,40 +65,48 @@ class Painter:
     def __init__(self, path: str, program: str, reading: Sequence[str]) -> None:
         self._said = tempfile.TemporaryFile()
         self._lock = threading.Lock()
+        self._path = path
         words = [program, "render", path, "--asked", "--progress", "json", *reading]
         self._process = popen(words, stdin=subprocess.PIPE, stderr=self._said)
         greeting = self._line()
         #: The folder of the run; of other programs' files that of their import.
         self.folder = str(greeting["run"])
 
-    def draw(self, asked: Mapping[str, Any]) -> Picture:
-        """The picture that a question asks for (render/app/asked/asked_pictures.hpp)."""
+    def draw(self, asked: Mapping[str, Any]) -> Tuple[Picture, List[str]]:
+        """The picture that a question asks for (render/app/asked/asked_pictures.hpp), and warnings about it."""
+        line = json.dumps(asked, allow_nan=False).encode() + b"\n"
         with self._lock:
             try:
-                return self._draw(asked)
+                return self._draw(line)
             except BaseException as error:
                 if not isinstance(error, GrainreelError):
                     self.close()  # a half-read answer
                 raise
 
-    def _draw(self, asked: Mapping[str, Any]) -> Picture:
+    def _draw(self, line: bytes) -> Tuple[Picture, List[str]]:
         pipe = self._process.stdin
         try:
             assert pipe is not None
-            pipe.write(json.dumps(asked, allow_nan=False).encode() + b"\n")
+            pipe.write(line)
             pipe.flush()
-        except (OSError, ValueError):
+        except OSError:
             pass  # it has ended; it says why
+        except ValueError:
+            raise GrainreelError("the program that draws was closed; ask again") from None
         head = self._line()
         if "error" in head:
-            raise GrainreelError(in_python(str(head["error"])))
+            raise GrainreelError(self._told(head["error"]))
         size = head["width"] * head["height"] * 4
         data = self._process.stdout.read(size) if self._process.stdout else b""
         if len(data) < size:
             raise self._why()
         pixels = numpy.frombuffer(data, numpy.uint8).reshape(head["height"], head["width"], 4)
         pixels = pixels.copy() if head["transparent"] else pixels[:, :, :3].copy()
-        return pixels.view(Picture)
+        return pixels.view(Picture), [self._told(note) for note in head["notes"]]
+
+    def _told(self, text: object) -> str:
+        """A message in Python's words, which names the files that the user has given in place of their import."""
+        return in_python(str(text).replace(self.folder, self._path))
 
     def alive(self) -> bool:
         """Whether it still draws."""
@@ -187,12 +195,21 @@ def _close_all() -> None:
         _painters.popitem()[1].close()
 
 
-def question(at: object, frame: object, size: object, colour: object, settings: Dict[str, object],
+def question(moment: Mapping[str, object], size: object, colour: object, settings: Dict[str, object],
              more: object) -> Dict[str, Any]:
-    """The question that asks a painter for a picture."""
-    if at is not None and frame is not None:
-        raise GrainreelError("at and frame: both name a moment; leave one out")
+    """The question that asks a painter for a picture. moment: at, frame, cycle and phase, None where not given."""
+    given = [name for name in ("at", "frame", "cycle") if moment[name] is not None]
+    if len(given) > 1:
+        raise GrainreelError(f"{given[0]} and {given[1]}: both name a moment; leave one out")
     asked: Dict[str, Any] = {}
+    at, frame = moment["at"], moment["frame"]
+    if moment["phase"] is not None and moment["cycle"] is None:
+        raise GrainreelError("phase: is a part of a period; give its cycle too")
+    for name, most in (("cycle", math.inf), ("phase", 1)):
+        if moment[name] is not None:
+            asked[name] = number_of(moment[name], name)
+            if not (0 <= asked[name] <= most and math.isfinite(asked[name])):
+                raise wrong(name, "a number from 0" + (" to 1" if most == 1 else ""), moment[name])
     if at is not None:
         asked["at"] = seconds_of(at, "at")
     if frame is not None:
@@ -222,6 +239,8 @@ def colours(values: object, settings: Dict[str, object]) -> Dict[str, Any]:
         if len(ends) != 2:
             raise wrong("colour__range", "two numbers, as in (0, 2)", how["range"])
         low, high = (number_of(each, "colour__range") for each in ends)
+        if not (math.isfinite(low) and math.isfinite(high)):
+            raise wrong("colour__range", "two numbers, as in (0, 2)", how["range"])
     else:
         shown = known[known > 0] if logarithmic else known
         if not shown.size:

@@ -5,8 +5,9 @@ import operator
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, Dict, List, Optional, TypeVar, overload
+from typing import Any, Dict, List, Optional, TypeVar, Union, overload
 
+import numpy
 import xarray
 
 from . import _data, _verbs
@@ -23,7 +24,9 @@ class Run:
 
     It is a sequence of its kept moments, its frames: `len(run)`, `run[-1]`, `for frame in run`. Each is a dataset in
     which a grain is a row: `id`, `species`, `radius`, `x`, `y`, `z` (m), `vx`, `vy`, `vz` (m/s), `wx`, `wy`, `wz`
-    (rad/s). Files are read when they are first asked for. `with grainreel.open(...) as run` closes them at its end.
+    (rad/s). Its rows are in the order of `id`, which is an index: `run[-1].sel(id=12)`, and `run[-1].z - run[0].z` takes
+    the same grains from both. Files are read when they are first asked for. `with grainreel.open(...) as run` closes them
+    at its end.
     """
 
     def __init__(self, folder: object, *, program: object = None, **reading: object) -> None:
@@ -107,8 +110,19 @@ class Run:
         for place in range(len(self)):
             yield self[place]
 
-    def sel(self, time: Any, method: Optional[str] = "nearest") -> xarray.Dataset:
-        """The frame at a time (s), as `run[...]` gives it: the nearest one, or with method=None only just that one."""
+    @overload
+    def sel(self, time: slice, method: Optional[str] = "nearest") -> List[xarray.Dataset]: ...
+
+    @overload
+    def sel(self, time: Union[float, str, xarray.DataArray], method: Optional[str] = "nearest") -> xarray.Dataset: ...
+
+    def sel(self, time: Any, method: Optional[str] = "nearest") -> Any:
+        """The frame at a time (s), as `run[...]` gives it: the nearest one, or with method=None only just that one. Of a
+        slice of times a list of the frames in it, both ends included."""
+        if isinstance(time, slice):
+            first, last = (None if end is None else seconds_of(end, "time") for end in (time.start, time.stop))
+            places = numpy.arange(len(self))[self.trajectory.indexes["time"].slice_indexer(first, last, time.step)]
+            return [self[place] for place in places]
         seconds = seconds_of(time, "time")
         number = int(self.trajectory.indexes["time"].get_indexer([seconds], method=method)[0])
         if number < 0:

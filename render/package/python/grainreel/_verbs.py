@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Union
@@ -82,13 +83,15 @@ def run(scene: Scene = None, *, text: Optional[str] = None, progress: Progress =
     return made
 
 
-def render(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Optional[int] = None, size: Any = None,
-           colour: Any = None, program: Optional[PathLike] = None, reading: Settings = None, set: Settings = None,
+def render(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Optional[int] = None,
+           cycle: Optional[float] = None, phase: Optional[float] = None, size: Any = None, colour: Any = None,
+           program: Optional[PathLike] = None, reading: Settings = None, set: Settings = None,
            **settings: Any) -> Picture:
     """A picture of a moment of a run, or of another program's files, as an array: rows x columns x 3 (4 where it is
     transparent) numbers of 0 to 255.
 
-    - `at`: s; `frame`: number of a frame of the film, whose run was made with `film=True`. Neither: the last moment.
+    - `at`: s; `frame`: number of a frame of the film, whose run was made with `film=True`; `cycle`: periods of the drive,
+      and `phase`, from 0 to 1 of the next one. None of them: the last moment.
     - `size`: "640x480" or (640, 480).
     - `colour`: a number for each grain by which they are coloured, in the order of ids, or with the ids as the
       coordinate or the index `id`, as arrays of `run[-1]` have them. `colour__range=(0, 2)`, `colour__map="vik"`,
@@ -96,10 +99,16 @@ def render(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Opt
     - `reading`: a dict, what files of other programs do not say, see `open`.
     - `settings`: keys of [film], as in `colour__by="speed"`; `set={"film.colour.by": "speed"}` is the same.
 
-    The first picture of a run starts a program that stays; the next ones take some tens of ms.
+    The first picture of a run starts a program that stays; the next ones take some tens of ms. What a picture cannot
+    show is told as a warning.
     """
-    asked = question(at, frame, size, colour, dict(settings), set)
-    return painter_of(path_of(run, "run"), _program(run, program), _reading(run, reading)).draw(asked)
+    moment = {"at": at, "frame": frame, "cycle": cycle, "phase": phase}
+    asked = question(moment, size, colour, dict(settings), set)
+    painter = painter_of(path_of(run, "run"), _program(run, program), _reading(run, reading))
+    picture, notes = painter.draw(asked)
+    for note in notes:
+        warnings.warn(note, stacklevel=2)
+    return picture
 
 
 def film(run: Union[PathLike, "Run"], *, out: Optional[PathLike] = None, force: bool = False, size: Any = None,
