@@ -59,6 +59,8 @@ ShadowMap::ShadowMap(const FilmedScene& scene)
     for (const Vec3& corner : corners_of(container_, extent_.high.z())) reach_.push_back(on_level(corner));
     for (const Vec3& corner : extent_corners(extent_)) reach_.push_back(on_level(corner));
     for (const Vec3& point : mesh_reach(scene)) reach_.push_back(on_level(point));
+    if (is_prism(foot_) || foot_.shape == Container::Shape::cylinder)
+        foot_half_ = outer_floor_half_width(foot_);
     size_ = extent_.size().norm() / std::numbers::sqrt3;
     add_walls();
 }
@@ -140,8 +142,8 @@ BodyPose ShadowMap::pose_of_foot(const State& frame) const {
 
 // m: how far a point in the frame of the plate lies beside it; negative over it.
 double ShadowMap::beside_foot(const Vec3& at, double room) const {
-    const double half = outer_floor_half_width(foot_);
-    if (foot_.shape == Container::Shape::cylinder) return std::hypot(at.x(), at.y()) - half;
+    const double half = foot_half_;
+    if (foot_.shape == Container::Shape::cylinder) return std::sqrt(at.x() * at.x() + at.y() * at.y()) - half;
     const double x = std::abs(at.x()) - 0.5 * foot_.depth, y = std::abs(at.y()) - half;
     return room > 0 && x > 0 && y > 0 ? std::hypot(x, y) : std::max(x, y);
 }
@@ -184,9 +186,9 @@ void ShadowMap::add_foot(const State& frame) {
     from_cells(frame, {0, 0, 1}, [&](std::size_t c, const Vec3& from, const Vec3& up) {
         const double way = std::max((low_plate_ - from.z()) / up.z(), 0.0);  // m, as `up` is a unit vector
         const double d = beside_foot(from + way * up, room);
-        const double near = high / (high + way);
-        const double taken = d > 0 ? 0.5 * near * (1 - d / std::hypot(d, high))
-                                   : 0.5 * (near - d / std::hypot(d, way + 1e-12));
+        const double near = high / (high + way), gap = d > 0 ? high : way + 1e-12;
+        const double share = std::abs(d) / std::sqrt(d * d + gap * gap);
+        const double taken = d > 0 ? 0.5 * near * (1 - share) : 0.5 * (near + share);
         closed_[c] = static_cast<float>(std::min(taken, 1.0));
     });
 }

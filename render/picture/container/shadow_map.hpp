@@ -64,6 +64,7 @@ class ShadowMap {
     std::vector<Patch> walls_;
     std::vector<Vec3> reach_;                        // m, level: outermost points
     double height_ = 0, low_plate_ = 0, aside_ = 0;  // m; aside_: level stroke, as it is drawn
+    double foot_half_ = 0;                           // m, half the width of the foot's plate along y
     double size_ = 1;                                // m, of the vessel
     Eigen::Vector2d low_{0, 0};
     double side_ = 1;
