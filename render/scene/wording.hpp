@@ -1,4 +1,4 @@
-// The fixed words of films and pages, in four languages, and how a scene rewords them. All such words are in
+// The fixed words of films, in four languages, and how a scene rewords them. All such words are in
 // two tables, words that scenes may reword in wording.cpp and phrases in wording_phrases.cpp. Nearly all of
 // render includes this header: keep it light.
 #pragma once
@@ -105,8 +105,8 @@ const std::vector<std::pair<std::string, Language>>& language_words();
 const char* name_of(Word word);
 const char* english_of(Word word);
 
-// A label of a column, a heading or a button in another language: names that come after "of " or "on " stay.
-// Phrases that the table of wording_phrases.cpp lacks stay English.
+// The label of a column in another language; names in it stay. Labels that the table of wording_phrases.cpp
+// lacks stay English.
 std::string phrase(Language language, const std::string& english);
 
 // How many parts a text has: 2 for "{1} of {2}"; -1 where a brace is no {1} to {9}.

@@ -1,4 +1,4 @@
-// The table of phrases: labels of columns, and the words of pages. The English text is the key.
+// The table of phrases: labels of columns. The English text is the key.
 #include <array>
 #include <map>
 #include <string_view>

@@ -112,8 +112,9 @@ const KeyTable<FilmPlot>& plot_table() {
             .usually([](P& plot, const Scene& scene) {
                 if (!plot.is_profile()) plot.period = scene.drive.present;
             }),
-        text("label", &P::label, note("by the column"), "Above the plot, and above its chart on the page.")
-            .unwritten_if([](const P& plot) { return !plot.own_label; }),
+        text("label", &P::label, note("by the column"), "Above the plot.").unwritten_if([](const P& plot) {
+            return !plot.own_label;
+        }),
         bound_by<P>(
             entry("range", KeyKind::interval, note("grows with the data; of a profile: by the scene"),
                   "Of the values' axis."),
