@@ -17,6 +17,7 @@
 #include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/study/study_text.hpp"
+#include "tests/support/tells.hpp"
 
 namespace grainreel {
 namespace {
@@ -91,8 +92,8 @@ TEST(StudyChartLabels, StandOnTheChartWithTheirUnits) {
     chart.x = 1, chart.y = 0;
     const std::string commands =
         chart_commands(made.study, chart, chart_series(made.study, made.members, made.results, chart), false);
-    EXPECT_THAT(commands, HasSubstr("set xlabel 'd of big (mm)'"));
-    EXPECT_THAT(commands, HasSubstr("set ylabel 'kinetic energy, mean (J)'"));
+    EXPECT_THAT(commands, tells({"set xlabel 'd of big", "(mm)'"}));
+    EXPECT_THAT(commands, tells({"set ylabel 'kinetic energy", "(J)'"}));
     // Two names of 29 letters side by side were cut off at the chart's edge.
     const StudyChart& sizes = made.study.charts[0];
     made.study.variations[1].shown = "species.big.diameter";
@@ -150,7 +151,7 @@ TEST(StudyPage, SaysInWordsWhatChartsShow) {
     Made made(small_study);
     const std::string stem = chart_stem(made.study.charts[0]);
     const std::string page = study_page(made.study, made.members, made.results, {made.folder.path()}, {stem});
-    EXPECT_THAT(page, HasSubstr("against Γ: for d of big = 5 mm "));
+    EXPECT_THAT(page, tells({"against Γ", "d of big = 5 mm"}));
     EXPECT_THAT(page, HasSubstr(" at 2, "));
     EXPECT_THAT(page, HasSubstr("prefers-color-scheme: dark"));
     EXPECT_THAT(page, HasSubstr("@media print"));

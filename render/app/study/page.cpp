@@ -69,7 +69,7 @@ std::string chart_words(const Study& study, const StudyChart& chart, const std::
     const auto place = [&](double x) {
         return axis.numeric ? fmt::format("{:.4g}", x) : axis.values.at(static_cast<std::size_t>(x)).words;
     };
-    std::string text = fmt::format("{} against {}", study.measures[chart.y].title(), axis.title());
+    std::string text = fmt::format("A chart of {} against {}", study.measures[chart.y].title(), axis.title());
     const char* between = ": ";
     for (const ChartSeries& series : all) {
         std::vector<ChartPoint> points = series.points;

@@ -106,6 +106,14 @@ void Ground::stand(const View& view) {
     }
 }
 
+namespace {
+
+double whole_levels(double value) {
+    return static_cast<double>(std::lround(255 * value)) / 255;
+}
+
+}  // namespace
+
 // What is lighter than the ink takes part in the tint, so that the edges of letters are as smooth as before.
 void Ground::tint(const Rectangle& part, Picture& picture) const {
     const bool light = luminance(background_) > 0.18;
@@ -115,7 +123,9 @@ void Ground::tint(const Rectangle& part, Picture& picture) const {
     for (int y = part.y; y < part.y + part.height; ++y) {
         const Colour here = mix(background_, tint_, tone_[static_cast<std::size_t>(y)]);
         if (const std::uint32_t now = packed(here); now != last) {
-            const std::array<double, 3> colour{here.red, here.green, here.blue};
+            // The colour of all rows that are packed alike, so that a part is tinted as the whole picture is.
+            const std::array<double, 3> colour{whole_levels(here.red), whole_levels(here.green),
+                                               whole_levels(here.blue)};
             for (std::size_t c = 0; c < 3; ++c)
                 for (int v = 0; v < 256; ++v) {
                     const double value = light ? v * colour[c] / plain[c]

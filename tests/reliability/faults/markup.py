@@ -63,7 +63,7 @@ rate = 20
 [[film.segment]]
 playback = 0.5
 [[film.caption]]
-text = "{evil} caption"
+text = "{evil in a caption} caption"
 from = "0 s"
 to = "0.05 s"
 """
@@ -162,13 +162,18 @@ def words_of(evil):
     return plain, plain.replace("/", "_")
 
 
+def in_a_caption(evil):
+    """The text without braces, between which a caption names a column."""
+    return evil.replace("{", "(").replace("}", ")")
+
+
 def one_run(bench, folder, evil):
     """A run full of the text; None where it is refused."""
     plain, name = words_of(evil)
     mesh = folder / f"{name}.stl"
     mesh.write_text(STL.replace("{evil}", plain))
     file = mesh.name.replace("\\", "\\\\").replace('"', '\\"')
-    scene = scene_in(folder, SCENE.replace("{evil}", evil).replace("{file}", file), f"{name}.toml")
+    scene = scene_in(folder, SCENE.replace("{evil}", evil).replace("{file}", file).replace("{evil in a caption}", in_a_caption(evil)), f"{name}.toml")
     run = folder / f"{name} run"
     ended = bench.run("movie", scene, "--out", run, cwd=folder)
     if ended.status == 2 and "control character" in ended.said():
