@@ -64,7 +64,7 @@ Point seen_on_back_wall(int x, int y) {
 double lamp_seen(const std::vector<ViewSphere>& bed, const Point& from, const Lamp& lamp) {
     const Point key(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]);
     const Point u = key.unitOrthogonal(), v = key.cross(u);
-    constexpr int kRays = 200;
+    constexpr int kRays = 400;
     int free = 0;
     for (int k = 0; k < kRays; ++k) {
         const float out = lamp.spread * std::sqrt((static_cast<float>(k) + 0.5f) / kRays),
@@ -99,7 +99,7 @@ TEST(WallLight, AShadowEndsWhereTheLampIsSeen) {
         }
     EXPECT_GT(dark, 40);
     EXPECT_LT(darkest, 0.8 * open);
-    EXPECT_LT(worst, 0.035);
+    EXPECT_LT(worst, 0.03);
     EXPECT_LT(sum / walls, 0.001);
 }
 
