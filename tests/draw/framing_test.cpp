@@ -97,7 +97,6 @@ TEST(FramedPart, ABedIsLargerThanInAFrameOfAllTheContainer) {
 // floor.
 TEST(FramedPart, FreeHeightShowsMoreOfTheContainer) {
     FilmedScene scene = framed(reach, Container::Shape::box, 720, 1280);
-    scene.film.camera.field_of_view = 0;  // in perspective, walls that reach higher come nearer
     const View view = view_of(scene);
     double lowest = 0;
     for (const Vec3& point : framing_points(scene)) lowest = std::max(lowest, view.project(point).y());

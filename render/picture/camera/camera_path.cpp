@@ -62,7 +62,10 @@ void CameraPath::frame_by_itself(const FilmedScene& scene) {
     }
     if (!part.cut || !still_) return;
     part = show_more(scene, part, scale);
-    if (leaves_aside(scene, part)) keep_sides(scene, part);
+    if (leaves_aside(scene, part)) return keep_sides(scene, part);
+    const View middle = *still_;
+    lower(scene, part);
+    if (leaves_aside(scene, part)) still_ = middle;
 }
 
 // Returns pixels a metre at the middle of the framed part.
@@ -87,6 +90,22 @@ FramedPart CameraPath::show_more(const FilmedScene& scene, FramedPart part, doub
     }
     frame_part(scene, part);
     return part;
+}
+
+// Moves the picture down until nothing is left below the framed part. In perspective, show_more() leaves some
+// height, because walls that reach higher come nearer and would cost scale.
+void CameraPath::lower(const FilmedScene& scene, const FramedPart& part) {
+    constexpr int kTimes = 4;       // points at other depths move by other ways
+    constexpr double kLeast = 0.5;  // pixels
+    const std::vector<Vec3> points = framing_points(scene, camera_.azimuth, part, meshes_);
+    for (int i = 0; i < kTimes; ++i) {
+        const auto lowest = std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+            return still_->project(a).y() < still_->project(b).y();
+        });
+        const double left = port_.height - margin_ - still_->project(*lowest).y();
+        if (left < kLeast) return;
+        still_->eye += left / still_->pixels_per_metre(*lowest) * still_->up;
+    }
 }
 
 // Whether walls above the framed part lie within the picture's height but beside its width. Slanted walls may

@@ -57,6 +57,7 @@ class CameraPath {
     void frame_by_itself(const FilmedScene& scene);
     double frame_part(const FilmedScene& scene, const FramedPart& part);
     FramedPart show_more(const FilmedScene& scene, FramedPart part, double scale);
+    void lower(const FilmedScene& scene, const FramedPart& part);
     bool leaves_aside(const FilmedScene& scene, const FramedPart& part) const;
     void keep_sides(const FilmedScene& scene, FramedPart part);
     void keep_distance(const FilmedScene& scene, const FramedPart& part);
