@@ -124,6 +124,23 @@ bool any_of_row(const Number* numbers, int count) {
 
 }  // namespace
 
+// Writes which faces the pixels of a band of tiles show, and in which rows of each tile there are any.
+void WallLight::number_band(int y0) {
+    const int rows = std::min(kTile, height_ - y0);
+    for (int y = y0; y < y0 + rows; ++y) number_row(y);
+    for (Numbers& of : numbers_)
+        for (int x = 0; x < width_; x += kTile) {
+            const int count = std::min(kTile, width_ - x);
+            std::uint32_t shown = 0;
+            for (int r = 0; r < rows; ++r) {
+                const std::uint16_t* numbers =
+                    of.face.data() + static_cast<std::ptrdiff_t>(y0 + r) * width_ + x;
+                shown |= std::uint32_t{any_of_row(numbers, count)} << r;
+            }
+            of.shown[tile_of(x, y0)] = static_cast<std::uint16_t>(shown);
+        }
+}
+
 void WallLight::fill_from_faces(const Numbers& of, const Sight& sight, int x, int y, WallRow& row) const {
     const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + x;
     const std::uint16_t* numbers = of.face.data() + begin;
@@ -153,15 +170,19 @@ void WallLight::fill_from_faces(const Numbers& of, const Sight& sight, int x, in
     }
 }
 
-// Whether grains hide the pixels and all their neighbours.
-bool WallLight::hidden(const Visibility& seen, int x, int y, int count) const {
-    for (int row = std::max(y - 1, 0); row <= std::min(y + 1, height_ - 1); ++row) {
-        const std::uint32_t* numbers = seen.row(row) + x;
-        bool bare = false;
-        for (int i = -1; i <= count; ++i) bare |= numbers[i] == 0;
-        if (bare) return false;
+// The rows of a tile in which grains do not hide each pixel and all its neighbours: bit r is that of row y +
+// r.
+std::uint32_t WallLight::bare_rows(const Visibility& seen, int x, int y, int rows, int count) const {
+    std::uint32_t bare = 0;  // bit r: a pixel of row y + r - 1 shows no grain
+    for (int r = 0; r < rows + 2; ++r) {
+        const int row = y + r - 1;
+        if (row < 0 || row >= height_) continue;
+        const std::uint32_t* numbers = seen.row(row) + x - 1;
+        std::uint32_t none = 0;  // all bits are set where a pixel shows no grain
+        for (int i = 0; i < count + 2; ++i) none |= numbers[i] == 0 ? ~0u : 0u;
+        bare |= (none & 1u) << r;
     }
-    return true;
+    return (bare | bare >> 1 | bare >> 2) & ((1u << rows) - 1);
 }
 
 // A sphere around the points of a tile.
@@ -169,7 +190,7 @@ ViewSphere WallLight::around(const Sight& sight, Worker& worker, int rows) {
     worker.container_low = 1e9f, worker.container_high = -1e9f;
     Eigen::Array3f low(1e30f, 1e30f, 1e30f), high = -low;
     for (int r = 0; r < rows; ++r) {
-        if (!worker.any[static_cast<std::size_t>(r)]) continue;
+        if ((worker.any >> r & 1) == 0) continue;
         const WallRow& row = worker.rows[static_cast<std::size_t>(r)];
         int first = kWallRow, last = 0;
         float nearest = 1e30f, farthest = -1e30f;
@@ -278,7 +299,7 @@ void WallLight::light_tile(const Job& job, int x, int y0, int rows, bool first, 
     const int count = std::min(kTile, width_ - x);
     for (int r = 0; r < rows; ++r) {
         WallRow& row = worker.rows[static_cast<std::size_t>(r)];
-        if (!worker.any[static_cast<std::size_t>(r)]) continue;
+        if ((worker.any >> r & 1) == 0) continue;
         sphere_kernels().light_wall(job.by.sight, job.by.lamp, shade, row);
         std::uint8_t* shares =
             shares_.data() + static_cast<std::size_t>(y0 + r) * static_cast<std::size_t>(width_) + x;
@@ -290,8 +311,8 @@ void WallLight::light_tile(const Job& job, int x, int y0, int rows, bool first, 
     }
 }
 
-// shows(layer, x, y, count): whether pixels from (x, y) on show any wall. fill(layer, x, y, row): what they
-// show.
+// shows(layer, x, y, rows, count): in which rows of a tile pixels show any wall, as bits. fill(layer, x, y,
+// row): what the pixels of a row show.
 template <class Shows, class Fill>
 void WallLight::light(const Job& job, int layers, Team& team, const Shows& shows, const Fill& fill) {
     workers_.resize(static_cast<std::size_t>(team.size()));
@@ -309,22 +330,24 @@ void WallLight::light(const Job& job, int layers, Team& team, const Shows& shows
                           std::uint8_t{255});
                 span = {};
             }
-            for (int x = 0; x < width_; x += kTile)
+            for (int x = 0; x < width_; x += kTile) {
+                const int count = std::min(kTile, width_ - x);
+                std::array<std::uint32_t, 2> shown{};  // rows, as bits
+                for (int layer = 0; layer < layers; ++layer) shown[layer] = shows(layer, x, y0, rows, count);
+                if ((shown[0] | shown[1]) == 0) continue;
+                const std::uint32_t bare = bare_rows(job.by.seen, x, y0, rows, count);
                 for (int layer = 0; layer < layers; ++layer) {
-                    bool any = false;
-                    const int count = std::min(kTile, width_ - x);
+                    worker.any = shown[layer] & bare;
+                    if (worker.any == 0) continue;
                     for (int r = 0; r < rows; ++r) {
-                        const bool seen =
-                            shows(layer, x, y0 + r, count) && !hidden(job.by.seen, x, y0 + r, count);
-                        worker.any[static_cast<std::size_t>(r)] = seen;
-                        if (!seen) continue;
+                        if ((worker.any >> r & 1) == 0) continue;
                         WallRow& row = worker.rows[static_cast<std::size_t>(r)];
                         row.x = static_cast<float>(x) + 0.5f, row.y = static_cast<float>(y0 + r) + 0.5f;
                         fill(layer, x, y0 + r, row);
-                        any = true;
                     }
-                    if (any) light_tile(job, x, y0, rows, layer == 0, worker);
+                    light_tile(job, x, y0, rows, layer == 0, worker);
                 }
+            }
         }
     });
 }
@@ -336,15 +359,16 @@ void WallLight::light_faces(const LightTakers& by, const std::vector<WallFace>& 
                       s.orthographic == last_sight_.orthographic && s.focal == last_sight_.focal;
     if (!same) {
         last_ = faces, last_sight_ = s;
-        for (Numbers& of : numbers_) of.face.resize(shares_.size()), of.bare.resize(shares_.size());
+        for (Numbers& of : numbers_) {
+            of.face.resize(shares_.size()), of.bare.resize(shares_.size());
+            of.shown.resize(static_cast<std::size_t>(tiles_across() * ((height_ + kTile - 1) / kTile)));
+        }
         set_faces(s, by.lamp, faces);
     }
-    constexpr int kRows = 16;
     std::atomic<int> next{0};
     if (!same)
         team.run([&](int) {
-            for (int y; (y = kRows * next.fetch_add(1, std::memory_order_relaxed)) < height_;)
-                for (int row = y; row < std::min(y + kRows, height_); ++row) number_row(row);
+            for (int y; (y = kTile * next.fetch_add(1, std::memory_order_relaxed)) < height_;) number_band(y);
         });
     if (faces_.empty()) {
         if (!same) std::fill(shares_.begin(), shares_.end(), std::uint8_t{255});
@@ -353,10 +377,8 @@ void WallLight::light_faces(const LightTakers& by, const std::vector<WallFace>& 
     }
     light(
         {by, corner_reach}, 2, team,
-        [&](int layer, int x, int y, int count) {
-            return any_of_row(numbers_[static_cast<std::size_t>(layer)].face.data() +
-                                  static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + x,
-                              count);
+        [&](int layer, int x, int y, int, int) {
+            return std::uint32_t{numbers_[static_cast<std::size_t>(layer)].shown[tile_of(x, y)]};
         },
         [&](int layer, int x, int y, WallRow& row) {
             fill_from_faces(numbers_[static_cast<std::size_t>(layer)], s, x, y, row);
@@ -370,7 +392,12 @@ void WallLight::light_meshes(const LightTakers& by, const MeshPixels& meshes, Te
     };
     light(
         {by, 0}, 1, team,
-        [&](int, int x, int y, int count) { return any_of_row(meshes.number + place(x, y), count); },
+        [&](int, int x, int y, int rows, int count) {
+            std::uint32_t shown = 0;
+            for (int r = 0; r < rows; ++r)
+                shown |= std::uint32_t{any_of_row(meshes.number + place(x, y + r), count)} << r;
+            return shown;
+        },
         [&](int, int x, int y, WallRow& row) {
             const std::uint32_t* numbers = meshes.number + place(x, y);
             const float* away = meshes.away + place(x, y);

@@ -70,7 +70,7 @@ class WallLight {
     // One thread's rows of a tile, and the grains near it.
     struct Worker {
         std::array<WallRow, kTile> rows;
-        std::array<bool, kTile> any;
+        std::uint32_t any = 0;  // rows that show a wall, as bits
         std::vector<NearGrain> occluders, casters;
         std::vector<CornerPlane> corners;
         std::vector<std::uint64_t> met_by;  // for each grain: number of the last search that met it
@@ -81,6 +81,7 @@ class WallLight {
     struct Numbers {
         std::vector<std::uint16_t> face;
         std::vector<std::uint8_t> bare;
+        std::vector<std::uint16_t> shown;  // of each tile: the rows in which there is a face, as bits
     };
     struct Job {
         const LightTakers& by;
@@ -90,14 +91,19 @@ class WallLight {
     template <class Shows, class Fill>
     void light(const Job& job, int layers, Team& team, const Shows& shows, const Fill& fill);
     void set_faces(const Sight& sight, const Lamp& lamp, const std::vector<WallFace>& faces);
+    int tiles_across() const { return (width_ + kTile - 1) / kTile; }
+    std::size_t tile_of(int x, int y) const {
+        return static_cast<std::size_t>(y / kTile * tiles_across() + x / kTile);
+    }
     void number_row(int y);
+    void number_band(int y0);
     void fill_from_faces(const Numbers& numbers, const Sight& sight, int x, int y, WallRow& row) const;
     void light_tile(const Job& job, int x, int y0, int rows, bool first, Worker& worker);
     static ViewSphere around(const Sight& sight, Worker& worker, int rows);
     static bool outside(const NearGrain& near, const Worker& worker);
     static void find_occluders(const LightTakers& by, const ViewSphere& tile, Worker& worker);
     static void find_casters(const LightTakers& by, const ViewSphere& tile, Worker& worker);
-    bool hidden(const Visibility& seen, int x, int y, int count) const;
+    std::uint32_t bare_rows(const Visibility& seen, int x, int y, int rows, int count) const;
 
     const int width_, height_;
     std::vector<WallFace> last_;
