@@ -114,12 +114,16 @@ void WallLight::number_row(int y) {
 
 namespace {
 
-// Whether any of up to 16 numbers is not 0.
+// In which rows of a tile any number is not 0, as bits. stride: numbers from row to row.
 template <class Number>
-bool any_of_row(const Number* numbers, int count) {
-    Number any = 0;
-    for (int i = 0; i < count; ++i) any |= numbers[i];
-    return any != 0;
+std::uint32_t rows_with_any(const Number* numbers, std::size_t stride, int rows, int count) {
+    std::uint32_t shown = 0;
+    for (int r = 0; r < rows; ++r, numbers += stride) {
+        Number any = 0;
+        for (int i = 0; i < count; ++i) any |= numbers[i];
+        shown |= std::uint32_t{any != 0} << r;
+    }
+    return shown;
 }
 
 }  // namespace
@@ -127,18 +131,13 @@ bool any_of_row(const Number* numbers, int count) {
 // Writes which faces the pixels of a band of tiles show, and in which rows of each tile there are any.
 void WallLight::number_band(int y0) {
     const int rows = std::min(kTile, height_ - y0);
+    const auto stride = static_cast<std::size_t>(width_);
     for (int y = y0; y < y0 + rows; ++y) number_row(y);
     for (Numbers& of : numbers_)
-        for (int x = 0; x < width_; x += kTile) {
-            const int count = std::min(kTile, width_ - x);
-            std::uint32_t shown = 0;
-            for (int r = 0; r < rows; ++r) {
-                const std::uint16_t* numbers =
-                    of.face.data() + static_cast<std::ptrdiff_t>(y0 + r) * width_ + x;
-                shown |= std::uint32_t{any_of_row(numbers, count)} << r;
-            }
-            of.shown[tile_of(x, y0)] = static_cast<std::uint16_t>(shown);
-        }
+        for (int x = 0; x < width_; x += kTile)
+            of.shown[tile_of(x, y0)] = static_cast<std::uint16_t>(
+                rows_with_any(of.face.data() + static_cast<std::size_t>(y0) * stride + x, stride, rows,
+                              std::min(kTile, width_ - x)));
 }
 
 void WallLight::fill_from_faces(const Numbers& of, const Sight& sight, int x, int y, WallRow& row) const {
@@ -170,8 +169,7 @@ void WallLight::fill_from_faces(const Numbers& of, const Sight& sight, int x, in
     }
 }
 
-// The rows of a tile in which grains do not hide each pixel and all its neighbours: bit r is that of row y +
-// r.
+// The rows of a tile in which grains do not hide each pixel and all its neighbours; bit r is row y + r.
 std::uint32_t WallLight::bare_rows(const Visibility& seen, int x, int y, int rows, int count) const {
     std::uint32_t bare = 0;  // bit r: a pixel of row y + r - 1 shows no grain
     for (int r = 0; r < rows + 2; ++r) {
@@ -393,10 +391,7 @@ void WallLight::light_meshes(const LightTakers& by, const MeshPixels& meshes, Te
     light(
         {by, 0}, 1, team,
         [&](int, int x, int y, int rows, int count) {
-            std::uint32_t shown = 0;
-            for (int r = 0; r < rows; ++r)
-                shown |= std::uint32_t{any_of_row(meshes.number + place(x, y + r), count)} << r;
-            return shown;
+            return rows_with_any(meshes.number + place(x, y), meshes.stride, rows, count);
         },
         [&](int, int x, int y, WallRow& row) {
             const std::uint32_t* numbers = meshes.number + place(x, y);
