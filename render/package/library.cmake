@@ -40,7 +40,8 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples DESTINATION ${library_doc} C
         PATTERN Doxyfile EXCLUDE)
 install(FILES ${CMAKE_SOURCE_DIR}/docs/guide/library.md ${CMAKE_SOURCE_DIR}/docs/guide/other-programs.md
         DESTINATION ${library_doc}/guide COMPONENT dev)
-install(FILES ${CMAKE_SOURCE_DIR}/docs/reference/scenes.md DESTINATION ${library_doc}/reference COMPONENT dev)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/reference DESTINATION ${library_doc} COMPONENT dev
+        FILES_MATCHING PATTERN "scene*.md" PATTERN "measures.md" PATTERN "run_files.md")
 install(FILES ${package_facts} DESTINATION ${library_doc} COMPONENT dev)
 
 # What a program that links the archives needs beside them.
