@@ -45,6 +45,6 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/reference DESTINATION ${library_doc} 
 install(FILES ${package_facts} DESTINATION ${library_doc} COMPONENT dev)
 
 # What a program that links the archives needs beside them.
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libfmt-dev, libspdlog-dev, libtomlplusplus-dev, libnetcdf-dev, libhwy-dev, \
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libfmt-dev, libspdlog-dev, libtomlplusplus-dev, libnetcdf-dev, libhdf5-dev, libhwy-dev, \
 libudunits2-dev, libxxhash-dev, zlib1g-dev, libzstd-dev, liblz4-dev, libexpat1-dev, libpng-dev, \
 libpango1.0-dev, libosmesa6 | libegl1, fonts-dejavu-core, pkg-config")
