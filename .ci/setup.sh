@@ -20,6 +20,7 @@ libudunits2-dev      udunits2, with its XML database
 libxxhash-dev        libxxhash
 libhwy-dev           libhwy (Highway)
 libnetcdf-dev        netcdf
+libhdf5-dev          hdf5
 libpng-dev           libpng
 libdeflate-dev       libdeflate
 zlib1g-dev           zlib

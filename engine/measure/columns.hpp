@@ -28,7 +28,7 @@ Measurable measurable_in(const Scene& scene);
 // one". Empty where it may have values.
 std::string why_column_is_empty(const Scene& scene, const std::string& column);
 
-// The table of all columns in Markdown, as in docs/reference/scenes.md.
+// The table of all columns in Markdown, as in docs/reference/measures.md.
 std::string column_table_markdown();
 
 // The axis on which a column of measures.csv is drawn.

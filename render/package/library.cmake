@@ -40,10 +40,11 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/examples DESTINATION ${library_doc} C
         PATTERN Doxyfile EXCLUDE)
 install(FILES ${CMAKE_SOURCE_DIR}/docs/guide/library.md ${CMAKE_SOURCE_DIR}/docs/guide/other-programs.md
         DESTINATION ${library_doc}/guide COMPONENT dev)
-install(FILES ${CMAKE_SOURCE_DIR}/docs/reference/scenes.md DESTINATION ${library_doc}/reference COMPONENT dev)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/reference DESTINATION ${library_doc} COMPONENT dev
+        FILES_MATCHING PATTERN "scene*.md" PATTERN "measures.md" PATTERN "run_files.md")
 install(FILES ${package_facts} DESTINATION ${library_doc} COMPONENT dev)
 
 # What a program that links the archives needs beside them.
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libfmt-dev, libspdlog-dev, libtomlplusplus-dev, libnetcdf-dev, libhwy-dev, \
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libfmt-dev, libspdlog-dev, libtomlplusplus-dev, libnetcdf-dev, libhdf5-dev, libhwy-dev, \
 libudunits2-dev, libxxhash-dev, zlib1g-dev, libzstd-dev, liblz4-dev, libexpat1-dev, libpng-dev, \
 libpango1.0-dev, libosmesa6 | libegl1, fonts-dejavu-core, pkg-config")

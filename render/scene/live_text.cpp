@@ -66,7 +66,7 @@ std::string column_names(const std::vector<MeasureColumn>& columns) {
     std::string known;
     for (std::size_t i = kCounters; i < columns.size(); ++i)
         if (columns[i].instrument.empty()) known += (known.empty() ? "" : ", ") + columns[i].name;
-    return known + ", and those of the instruments (docs/reference/scenes.md, measures.csv)";
+    return known + ", and those of the instruments (docs/reference/measures.md)";
 }
 
 std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns) {

@@ -283,6 +283,48 @@ TEST(Archive, AFileOfContactsAloneSaysWhereItBelongs) {
                 testing::Contains(tells({"contacts", "no grains", "file of the grains"})));
 }
 
+// Contacts in tables: matched by time; names as programs have them.
+TEST(Archive, ContactsInATableBelongToTheGrainsOfTheirTime) {
+    const TemporaryFolder folder;
+    write(folder / "a.csv",
+          "time,id,x,y,z,radius\n0,4,0,0,0,0.5\n0,9,1,0,0,0.5\n0.1,4,0,0,0,0.5\n0.1,9,1,0,0,0.5\n");
+    write(folder / "pairs.csv", "time;step;id1;id2;fn\n0,1;700;4;9;2,5\n0,1;700;9;-1;0,5\n");
+    ReadingOptions options;
+    options.contacts = {(folder / "pairs.csv").string()};
+    const ForeignArchive archive(folder / "a.csv", options);
+    ASSERT_TRUE(archive.supply().contacts);
+    EXPECT_FALSE(archive.has_contacts_of(0));
+    const std::vector<Link> links = *archive.touches(1);
+    ASSERT_EQ(links.size(), 2u);
+    EXPECT_EQ(links[0].first, 4);
+    EXPECT_EQ(links[0].second, 9);
+    EXPECT_EQ(links[0].force, 2.5);
+    EXPECT_EQ(links[1].second, -1);
+    EXPECT_THAT(message_of(folder / "pairs.csv"), tells({"contacts", "no grains", "--contacts"}));
+    // In a folder, grains and contacts are told apart.
+    EXPECT_TRUE(ForeignArchive(folder.path(), {}).supply().contacts);
+}
+
+// DEM-Engine counts the rows of its grains from 0, and walls and meshes by their own numbers.
+TEST(Archive, ContactsOfDemEngineCountFrom0) {
+    const TemporaryFolder folder;
+    write(folder / "grains.csv", "X,Y,Z,r,absv\n0,0,1,0.5,0\n0,0,0,0.5,0\n");
+    write(folder / "pairs.csv",
+          "contact_type,geoA,geoB,f_x,f_y,f_z,X,Y,Z\nSS,0,1,0,3,-4,0,0,-6\nSA,0,0,0,0,1.5,0,0,-10\nSM,1,2,0,"
+          "0,1,0,0,1\n");
+    ReadingOptions options;
+    options.contacts = {(folder / "pairs.csv").string()};
+    const ForeignArchive archive(folder / "grains.csv", options);
+    const std::vector<Link> links = *archive.touches(0);
+    ASSERT_EQ(links.size(), 3u);
+    EXPECT_EQ(links[0].first, 1);
+    EXPECT_EQ(links[0].second, 2);
+    EXPECT_EQ(links[0].force, 5);
+    EXPECT_EQ(links[1].first, 1);
+    EXPECT_EQ(links[1].second, -1);
+    EXPECT_EQ(links[2].second, -3);
+}
+
 TEST(Archive, VelocitiesHaveTheUnitOfTheirNames) {
     const TemporaryFolder folder;
     write(folder / "a.csv", "x [mm],y [mm],z [mm],radius [mm],vx [mm/s],vy [mm/s],vz\n1,2,3,4,5,6,7\n");

@@ -15,7 +15,7 @@ namespace grainreel {
 namespace {
 
 TEST(MeasureColumns, DocsTellWhatTheObserversSay) {
-    const std::string page = GRAINREEL_SOURCE "/docs/reference/scenes.md";
+    const std::string page = GRAINREEL_SOURCE "/docs/reference/measures.md";
     const std::string begin_mark =
         "<!-- table of columns: generated from engine/measure/observer_list.hpp, begin -->\n";
     std::ostringstream whole;
@@ -31,7 +31,7 @@ TEST(MeasureColumns, DocsTellWhatTheObserversSay) {
         return;
     }
     EXPECT_EQ(text.substr(start, end - start), column_table_markdown())
-        << "docs/reference/scenes.md is not what the observers say; write it anew with\n"
+        << "docs/reference/measures.md is not what the observers say; write it anew with\n"
            "  GRAINREEL_WRITE_DOCS=1 test_scene --gtest_filter=MeasureColumns.DocsTellWhatTheObserversSay";
 }
 

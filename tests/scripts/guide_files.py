@@ -123,6 +123,17 @@ def surface_with_loads(triangles, time):
             f"CELL_DATA {count}\nFIELD FieldData 2\n{loads}")
 
 
+def touching_in(rows):
+    return [(a, b) for k, a in enumerate(rows) for b in rows[:k]
+            if sum((a[n] - b[n])**2 for n in "xyz") < (1.02 * (a["radius"] + b["radius"]))**2]
+
+
+def pair_table(file, frames):
+    """A CSV of contacts with their times."""
+    file.write_text("time,id1,id2,fn\n" + "".join("%.9g,%d,%d,1e-3\n" % (time, a["id"], b["id"])
+                                                  for time, rows in frames for a, b in touching_in(rows)))
+
+
 def lammps_local(folder, frames):
     """dump.bed and a dump local of its contacts, dump.contacts, whose columns have no words."""
     with open(folder / "dump.bed", "w") as bed, open(folder / "dump.contacts", "w") as pairs:
@@ -133,8 +144,7 @@ def lammps_local(folder, frames):
             bed.write(f"{head}ATOMS\n{len(rows)}\n{box}ITEM: ATOMS id type x y z radius\n" + "".join(
                 "%d %d %.9g %.9g %.9g %.9g\n" % tuple(row[n] for n in ("id", "type", "x", "y", "z", "radius"))
                 for row in rows))
-            touching = [(a, b) for k, a in enumerate(rows) for b in rows[:k]
-                        if sum((a[n] - b[n])**2 for n in "xyz") < (1.02 * (a["radius"] + b["radius"]))**2]
+            touching = touching_in(rows)
             pairs.write(f"{head}ENTRIES\n{len(touching)}\n{box}ITEM: ENTRIES c_1[1] c_1[2] c_2[1]\n" + "".join(
                 "%d %d 1e-3\n" % (a["id"], b["id"]) for a, b in touching))
 

@@ -29,7 +29,7 @@ SMALL = {"render": "--size 160x90", "compare": "--size 640x360"}
 PYTHON = "/usr/bin/python3"
 
 # Which writer's files a reader takes: of its formats the ones that are the same.
-SAME = {"lammps-dump": "lammps-dump", "vtk-xml": "vtk", "gsd": "gsd", "amber": "netcdf", "surface": "stl", "xyz": "xyz",
+SAME = {"lammps-dump": "lammps-dump", "lammps-data": "lammps-data", "vtk-xml": "vtk", "gsd": "gsd", "amber": "netcdf", "surface": "stl", "xyz": "xyz",
         "table": "csv"}
 OF_OURS = {"grain-table"}  # read as a table of a run of ours
 
@@ -88,7 +88,7 @@ def check_table(program, folder):
     for name, _ in writers(program):
         made = run([program, "export", "output/wedge_segregation", "--to", name, "--out", f"table-{name}"], folder)
         check(made.returncode == 0, f"export --to {name}: {made.stderr}")
-        if name in ("lammps-data", "gltf", "blender"):
+        if name in ("gltf", "blender"):
             back = run([program, "inspect", f"table-{name}"], folder)
             check(back.returncode == 2, f"{name} is read, but the table says that it is not")
         elif name in read:
@@ -192,11 +192,13 @@ def make_files(program, folder, scene):
 
     made("movie", "wedge.toml", "--out", ours, "--no-film", "--no-report")
     for form, name in (("csv", "frames.csv"), ("lammps-dump", "run.dump"), ("lammps-dump", "dump.bed"), ("gsd", "bed.gsd"),
-                       ("xyz", "bed.xyz")):
+                       ("xyz", "bed.xyz"), ("lammps-data", "packed.data")):
         made("export", ours, "--to", form, "--out", name)
+    shutil.copy(ROOT / "tests/fuzz/corpus/foreign/bed.h5", folder / "bed.h5")
     frames = guide_files.read_frames(folder / "frames.csv")
     guide_files.liggghts(folder / "post", frames)
     guide_files.lammps_local(folder, frames)
+    guide_files.pair_table(folder / "pairs.csv", frames)
     guide_files.mercury(folder, "Chute", frames)
     guide_files.yade(folder, frames)
     guide_files.lethe(folder, frames)

@@ -111,7 +111,7 @@ def check_run(program):
            units["big_height_m"] == "m" and units["drive_frequency_Hz"] == "Hz", f"units are {units}")
     # The units of all columns are those of the documentation.
     written = {"N m": "N.m", "degrees": "degree", "turns, 0 to 1": "turn", "periods": "1"}
-    table = (ROOT / "docs/reference/scenes.md").read_text().split("table of columns: ")[1]
+    table = (ROOT / "docs/reference/measures.md").read_text().split("table of columns: ")[1]
     rows = re.findall(r"^\| `(\w[\w.]*)`[^|]* \| ([^|]+) \|", table, re.M)
     expect(len(rows) > 40, f"{len(rows)} columns are documented")
     for name, unit in rows:

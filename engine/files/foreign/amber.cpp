@@ -27,12 +27,6 @@ namespace {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double pi = 3.14159265358979323846;
 
-// The library has one state for all files, so only one thread may use it at a time.
-std::mutex& library() {
-    static std::mutex one;
-    return one;
-}
-
 // The library's fill values by the number of a type; NaN for types that are not numbers.
 double usual_fill(int type) {
     constexpr std::array<double, 12> fills{nothing,
@@ -143,9 +137,6 @@ AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), netcdf_(N
 
 // what: what the file lacks of the AMBER convention.
 void AmberFile::refuse_as_not_amber(const char* what) const {
-    if (netcdf_.has_group("h5md"))
-        throw UserError(fmt::format("{}: is H5MD, which is not read; write a dump, XYZ, GSD or AMBER NetCDF",
-                                    file_.string()));
     throw UserError(fmt::format("{}: is {}, but {}, as the AMBER convention says", file_.string(),
                                 is_hdf5(file_) ? "HDF5" : "NetCDF", what));
 }
@@ -372,7 +363,7 @@ void AmberFile::find_units() {
 }
 
 RawFrame AmberFile::read(std::size_t index) const {
-    const std::lock_guard lock(library());
+    const std::lock_guard lock(hdf5_library());
     return frame_at(index);
 }
 
@@ -407,16 +398,17 @@ void try_hdf5(const std::filesystem::path& file) {
             "{}: is a damaged HDF5 file, on which the HDF5 library fails; copy it again", file.string()));
 }
 
+}  // namespace
+
+// Also called for files of HDF5 that are not H5MD.
 std::unique_ptr<RawFile> open_amber(const std::filesystem::path& file) {
     if (packing_of(file) != Packing::none)
         throw UserError(
             fmt::format("{}: a NetCDF file is not read while it is packed; unpack it", file.string()));
-    const std::lock_guard lock(library());
+    const std::lock_guard lock(hdf5_library());
     if (is_hdf5(file)) try_hdf5(file);
     return std::make_unique<AmberFile>(file);
 }
-
-}  // namespace
 
 RawFormat amber_format() {
     return {"amber", "AMBER NetCDF", takes_amber, open_amber};

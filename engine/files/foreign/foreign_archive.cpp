@@ -244,6 +244,11 @@ std::optional<std::vector<Link>> ForeignArchive::touches(std::size_t index) cons
     const auto read = [&](const RawFrame& frame, const std::string& place) {
         std::optional<std::vector<Link>> all = touches_of(frame, options_, meaning_->units(), place);
         if (all) contacts_passed_over_ += frame.contacts.rows - all->size();
+        if (all && rows_of_contacts_from_0_)
+            for (Link& link : *all) {
+                ++link.first;
+                link.second += link.second >= 0 ? 1 : 0;
+            }
         return all;
     };
     if (!contacts_) return read(raw(index), grains_->place(index));

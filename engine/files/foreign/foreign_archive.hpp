@@ -132,7 +132,9 @@ class ForeignArchive final : public StateArchive {
     bool look_at(std::size_t index);
     void count_grains();
     void survey_contacts();
+    std::optional<std::int64_t> step_for_contacts(const RawMoment& contacts, std::size_t moments) const;
     void check_contact_columns();
+    void find_first_id_of_contacts();
     void make_world();
     void make_species();
     void name_walls();
@@ -162,8 +164,9 @@ class ForeignArchive final : public StateArchive {
     std::vector<WallMoment> wall_moments_;
     std::vector<std::vector<std::size_t>> wall_at_;  // for each moment and wall: the number of its pose
     bool has_contacts_ = false, derived_ = false;
-    bool alone_ = false;   // whether a file is read without those of the same kind of name
-    bool behind_ = false;  // whether the files have grown and this object has not
+    bool rows_of_contacts_from_0_ = false;  // contacts count the rows of grains without ids from 0
+    bool alone_ = false;                    // whether a file is read without those of the same kind of name
+    bool behind_ = false;                   // whether the files have grown and this object has not
     std::size_t first_with_grains_ = 0;
     std::vector<std::string> news_;
     mutable std::map<std::size_t, Gaps> gaps_;  // by the number of the frame; only where there are some

@@ -243,9 +243,10 @@ std::unique_ptr<StateArchive> open(const std::filesystem::path& path, const Open
 }  // namespace
 
 ReadFormat foreign_reader() {
-    return {"foreign",
-            "files of other programs: LAMMPS, LIGGGHTS, MercuryDPM, YADE, Lethe, VTK, XYZ, GSD, AMBER, CSV",
-            takes, open};
+    return {
+        "foreign",
+        "files of other programs: LAMMPS, LIGGGHTS, MercuryDPM, YADE, Lethe, VTK, XYZ, GSD, H5MD, AMBER, CSV",
+        takes, open};
 }
 
 }  // namespace grainreel

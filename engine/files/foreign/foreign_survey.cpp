@@ -86,6 +86,12 @@ void ForeignArchive::survey() {
         meaning_.emplace(grains_->facts(), empty, ReadingOptions(), path_.string());
         const bool contacts = std::any_of(grains_->moments().begin(), grains_->moments().end(),
                                           [](const RawMoment& one) { return one.has_contacts; });
+        // A dump may have contacts now and grains later; a table has the same columns in all frames.
+        if (contacts && grains_->facts().format.starts_with("table"))
+            throw UserError(
+                fmt::format("{}: holds contacts and no grains; give the file of the grains, and name "
+                            "this one by --contacts",
+                            path_.string()));
         news_.push_back(contacts
                             ? fmt::format("{}: has contacts and no grains; open the file of the grains, and "
                                           "name this one by --contacts",
@@ -108,6 +114,24 @@ void ForeignArchive::count_grains() {
     }
 }
 
+// The step of the grains to which contacts belong. If one of both has only times, they are matched by time.
+std::optional<std::int64_t> ForeignArchive::step_for_contacts(const RawMoment& contacts,
+                                                              std::size_t moments) const {
+    const std::vector<RawMoment>& grains = grains_->moments();
+    if (grains.empty()) return std::nullopt;
+    const bool timed = contacts.time && grains.front().time;
+    if (timed && !(contacts.step && grains.front().step)) {
+        for (std::size_t f = 0; f < grains.size(); ++f)
+            if (grains[f].time &&
+                std::abs(*grains[f].time - *contacts.time) <= 1e-6 * std::abs(*contacts.time) + 1e-12)
+                return raw_steps_[f];
+        return std::nullopt;
+    }
+    // A file of one moment that says no time belongs to grains of one moment.
+    const bool alone = !contacts.step && !contacts.time && moments == 1 && grains.size() == 1;
+    return alone ? std::optional(raw_steps_.front()) : contacts.step;
+}
+
 void ForeignArchive::survey_contacts() {
     contacts_at_.clear();
     const std::size_t frames = moments_.size();
@@ -116,14 +140,7 @@ void ForeignArchive::survey_contacts() {
     if (!contacts_) return;
     const std::vector<RawMoment>& moments = contacts_->moments();
     for (std::size_t k = 0; k < moments.size(); ++k) {
-        std::optional<std::int64_t> step = moments[k].step;
-        if (!step && moments[k].time) {
-            // If grains and contacts have only times and no steps, they are matched by time.
-            for (std::size_t f = 0; f < frames; ++f)
-                if (grains_->moments()[f].time && std::abs(*grains_->moments()[f].time - *moments[k].time) <=
-                                                      1e-6 * std::abs(*moments[k].time) + 1e-12)
-                    step = raw_steps_[f];
-        }
+        const std::optional<std::int64_t> step = step_for_contacts(moments[k], moments.size());
         if (step) contacts_at_.emplace(*step, k);
     }
     const auto matched =
@@ -150,12 +167,26 @@ void ForeignArchive::check_contact_columns() {
         const std::string name = from.files().front().string();
         has_contacts_ =
             column_for("id1", contacts, options_, name) && column_for("id2", contacts, options_, name);
+        if (has_contacts_) find_first_id_of_contacts();
         if (!has_contacts_)
             news_.push_back(fmt::format(
                 "{}: its contacts are left out: no columns say who touches whom; name them as in --columns "
                 "id1=c_1[1],id2=c_1[2],force=c_2[1]; it has {}",
                 name, names_in(contacts)));
         return;
+    }
+}
+
+// If the grains have no ids, they are counted by their rows from 1. Contacts may count them from 0.
+void ForeignArchive::find_first_id_of_contacts() {
+    rows_of_contacts_from_0_ = false;
+    if (!contacts_ || meaning_->has_ids()) return;
+    for (std::size_t k = 0; k < contacts_->moments().size() && !rows_of_contacts_from_0_; ++k) {
+        const std::optional<std::vector<Link>> links =
+            touches_of(contacts_->read(k), options_, meaning_->units(), contacts_->place(k));
+        rows_of_contacts_from_0_ = links && std::any_of(links->begin(), links->end(), [](const Link& link) {
+                                       return link.first == 0 || link.second == 0;
+                                   });
     }
 }
 

@@ -37,38 +37,14 @@ UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const
     return system;
 }
 
-// Whether two names differ only in their last letter, as those of the two partners of a contact: id1 and id2,
-// geoA and geoB, i and j.
-bool name_partners(std::string_view one, std::string_view other) {
-    if (one.empty() || one.size() != other.size()) return false;
-    const std::size_t last = one.size() - 1;
-    if (one.substr(0, last) != other.substr(0, last)) return false;
-    constexpr std::string_view pairs[] = {"12", "AB", "ab", "IJ", "ij"};
-    return std::any_of(std::begin(pairs), std::end(pairs),
-                       [&](std::string_view pair) { return one[last] == pair[0] && other[last] == pair[1]; });
-}
-
-bool is_of_contacts(std::string name) {
-    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    for (const char* word : {"force", "contact", "overlap"})
-        if (name.find(word) != std::string::npos) return true;
-    std::erase(name, '_');
-    return name == "fx" || name == "fn" || name == "fnx";
-}
-
 // Throws UserError where a table without places or radii is one of contacts.
 void refuse_contacts(const RawTable& table, const std::string& file) {
-    const auto& columns = table.columns;
-    if (std::none_of(columns.begin(), columns.end(),
-                     [](const auto& one) { return is_of_contacts(one.name); }))
-        return;
-    for (const RawColumn& one : columns)
-        for (const RawColumn& other : columns)
-            if (name_partners(one.name, other.name))
-                throw UserError(fmt::format(
-                    "{}: holds contacts, of {} and {}, and no grains; give the file of the grains, and name "
-                    "this one by --contacts",
-                    file, excerpt(one.name), excerpt(other.name)));
+    const std::optional<Partners> partners = partners_in(table);
+    if (!partners) return;
+    throw UserError(fmt::format(
+        "{}: holds contacts, of {} and {}, and no grains; give the file of the grains, and name "
+        "this one by --contacts",
+        file, excerpt(table.columns[partners->first].name), excerpt(table.columns[partners->second].name)));
 }
 
 }  // namespace

@@ -71,12 +71,12 @@ const std::vector<std::pair<std::string, Names>>& all() {
         {"qx", {"qx", "quati", "orientation:1", "orientation.x"}},
         {"qy", {"qy", "quatj", "orientation:2", "orientation.y"}},
         {"qz", {"qz", "quatk", "orientation:3", "orientation.z"}},
-        {"id1", {"id1", "c_id1", "i", "particle1", "pid1"}},
-        {"id2", {"id2", "c_id2", "j", "particle2", "pid2"}},
+        {"id1", {"id1", "c_id1", "i", "particle1", "pid1", "geoa"}},
+        {"id2", {"id2", "c_id2", "j", "particle2", "pid2", "geob"}},
         {"force", {"fn", "normal_force", "normalforce", "force_normal", "f_n"}},
-        {"fx", {"force:0", "fx", "force_x", "c_force:0"}},
-        {"fy", {"force:1", "fy", "force_y", "c_force:1"}},
-        {"fz", {"force:2", "fz", "force_z", "c_force:2"}},
+        {"fx", {"force:0", "fx", "force_x", "c_force:0", "f_x"}},
+        {"fy", {"force:1", "fy", "force_y", "c_force:1", "f_y"}},
+        {"fz", {"force:2", "fz", "force_z", "c_force:2", "f_z"}},
         {"pressure", {"normal_stress_average", "normal_stress", "pressure"}},
         {"wear", {"wear"}},
         {"step", {"step", "timestep", "iteration"}},
@@ -107,7 +107,37 @@ std::optional<std::size_t> place_of(const std::string& wanted, const RawTable& t
     return std::nullopt;
 }
 
+// Whether two names differ only in their last letter, as those of the two partners of a contact: id1 and id2,
+// geoA and geoB, i and j.
+bool name_partners(std::string_view one, std::string_view other) {
+    if (one.empty() || one.size() != other.size()) return false;
+    const std::size_t last = one.size() - 1;
+    if (one.substr(0, last) != other.substr(0, last)) return false;
+    constexpr std::string_view pairs[] = {"12", "AB", "ab", "IJ", "ij"};
+    return std::any_of(std::begin(pairs), std::end(pairs),
+                       [&](std::string_view pair) { return one[last] == pair[0] && other[last] == pair[1]; });
+}
+
+bool is_of_contacts(std::string name) {
+    name = lower(std::move(name));
+    for (const char* word : {"force", "contact", "overlap"})
+        if (name.find(word) != std::string::npos) return true;
+    std::erase(name, '_');
+    return name == "fx" || name == "fn" || name == "fnx";
+}
+
 }  // namespace
+
+std::optional<Partners> partners_in(const RawTable& table) {
+    const auto& columns = table.columns;
+    if (std::none_of(columns.begin(), columns.end(),
+                     [](const auto& one) { return is_of_contacts(one.name); }))
+        return std::nullopt;
+    for (std::size_t first = 0; first < columns.size(); ++first)
+        for (std::size_t second = 0; second < columns.size(); ++second)
+            if (name_partners(columns[first].name, columns[second].name)) return Partners{first, second};
+    return std::nullopt;
+}
 
 const std::vector<std::string>& names_of(const std::string& meaning) {
     static const Names none;

@@ -24,6 +24,13 @@ std::vector<std::string> all_meanings();
 std::optional<std::size_t> column_for(const std::string& meaning, const RawTable& table,
                                       const ReadingOptions& options, const std::string& file);
 
+// The columns that say which two grains touch, as geoA and geoB do.
+struct Partners {
+    std::size_t first = 0, second = 0;
+};
+// None unless the table has a column of a force or an overlap too.
+std::optional<Partners> partners_in(const RawTable& table);
+
 // The names of all columns for messages: "id, type, x, y, z, c_rad".
 std::string names_in(const RawTable& table);
 

@@ -6,10 +6,10 @@
 
 // All formats in the order in which they are asked. NAME stands for a function RawFormat NAME_format(), which
 // is in this folder or in a folder below.
-#define GRAINREEL_RAW_FORMATS(one)                                                                           \
-    one(lammps_binary) one(lammps_text) one(vtk_xml) one(vtk_legacy) one(vtk_collection) one(gsd) one(amber) \
-        one(mercury_data) one(mercury_contacts) one(mercury_restart) one(wall_surface) one(xyz)              \
-            one(number_table)
+#define GRAINREEL_RAW_FORMATS(one)                                                                         \
+    one(lammps_binary) one(lammps_text) one(lammps_state) one(vtk_xml) one(vtk_legacy) one(vtk_collection) \
+        one(gsd) one(h5md) one(amber) one(mercury_data) one(mercury_contacts) one(mercury_restart)         \
+            one(wall_surface) one(xyz) one(number_table)
 
 namespace grainreel {
 

@@ -44,6 +44,11 @@ std::string superblock_of(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::mutex& hdf5_library() {
+    static std::mutex one;
+    return one;
+}
+
 bool is_hdf5(const std::filesystem::path& file) {
     return superblock_of(file).starts_with(kHdf5Signature);
 }

@@ -5,11 +5,15 @@
 
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <string_view>
 
 namespace grainreel {
 
 inline constexpr std::string_view kHdf5Signature("\x89HDF\r\n\x1a\n");
+
+// Whoever calls the HDF5 library holds this, because the library has one state for all files.
+std::mutex& hdf5_library();
 
 bool is_hdf5(const std::filesystem::path& file);
 

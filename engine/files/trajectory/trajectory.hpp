@@ -1,6 +1,6 @@
 // Writes and reads trajectory.nc. It is classic NetCDF after the AMBER trajectory convention 1.0, extended as
 // LAMMPS and OVITO extend it (id, type, radius, cell_origin, more variables for each grain). All variables
-// are named in trajectory_layout.hpp and listed in docs/reference/scenes.md. Old files must stay readable.
+// are named in trajectory_layout.hpp and listed in docs/reference/run_files.md. Old files must stay readable.
 //
 // The file departs from the convention in three points, which its attribute `deviations` names. Units are SI
 // (each variable has `units`) and not angstrom and picosecond. Time and coordinates are doubles and not

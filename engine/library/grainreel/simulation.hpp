@@ -41,7 +41,7 @@ struct NewGrain {
 
 /// One number of measures.csv.
 struct Measure {
-    std::string column{};  ///< The name of its column, from the list in docs/reference/scenes.md.
+    std::string column{};  ///< The name of its column, from the list in docs/reference/measures.md.
     double value = 0;      ///< In the unit of that list; NaN where there is no value.
 };
 

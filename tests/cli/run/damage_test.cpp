@@ -267,9 +267,9 @@ TEST_F(DamagedRun, AnEarlierVersionsTrajectoryIsDrawnWithANote) {
     EXPECT_THAT(film.err, HasSubstr("run/trajectory.nc: has no checksums"));
 }
 
-// People who read the files look into docs/reference/scenes.md.
+// People who read the files look into docs/reference/run_files.md.
 TEST_F(DamagedRun, TheDocumentationListsEveryVariable) {
-    const std::string docs = text_of(fs::path(GRAINREEL_SOURCE) / "docs/reference/scenes.md");
+    const std::string docs = text_of(fs::path(GRAINREEL_SOURCE) / "docs/reference/run_files.md");
     const std::size_t trajectory = docs.find("## The contents of trajectory.nc");
     const std::size_t contacts = docs.find("## The contents of contacts.nc");
     ASSERT_LT(trajectory, contacts);

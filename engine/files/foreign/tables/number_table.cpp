@@ -1,6 +1,6 @@
-// Reads tables of numbers with a row for each grain: CSV of ParaView, DEM-Engine, Lethe, pandas and
-// spreadsheets, and columns between blanks, as YADE and numpy write them. If there is a column of time, the
-// rows of one time are a frame.
+// Reads tables of numbers with a row for each grain, or for each contact: CSV of ParaView, DEM-Engine, Lethe,
+// pandas and spreadsheets, and columns between blanks, as YADE and numpy write them. If there is a column of
+// time, the rows of one time are a frame.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -76,6 +76,7 @@ class NumberTable : public RawFile {
     [[noreturn]] void fault(const std::string& what) const { refuse_line(file_, line_.number, what); }
     void refuse_measures() const;
     void find_clocks();
+    void find_partners();
     void find_frames();
     bool take_row();
     FrameRows& frame_at(double clock);
@@ -84,6 +85,7 @@ class NumberTable : public RawFile {
     double clock_of(std::size_t column) const;
     void add_rows(std::vector<ColumnFiller>& columns, const RowGroup& run) const;
     void add_row(std::vector<ColumnFiller>& columns) const;
+    void name_partners_of(RawTable& contacts) const;
     void name_nameless();
 
     TableLayout layout_;
@@ -94,6 +96,7 @@ class NumberTable : public RawFile {
     std::vector<FrameRows> frames_;                // while they are found: in the order in which they begin
     std::map<double, std::size_t> frame_of_;       // for each time or step: its last frame
     std::optional<std::size_t> time_, step_, id_;  // numbers of these columns
+    std::optional<Partners> partners_;             // of a table of contacts
     double time_unit_ = 1;                         // s
     double last_ = 0;                              // time or step of the last row
     Ranges ranges_;
@@ -112,6 +115,7 @@ NumberTable::NumberTable(const std::filesystem::path& file) : file_(file), lines
     facts_.format = "table of numbers";
     facts_.program = layout_.program;
     find_clocks();
+    find_partners();
     find_frames();
     name_nameless();
 }
@@ -147,6 +151,18 @@ void NumberTable::find_clocks() {
     RawTable named;
     for (const std::string& name : layout_.names) named.columns.push_back({name, {}, {}});
     id_ = column_for("id", named, {}, file_.string());
+}
+
+// A table of grains may have columns of contacts too ("contact_number", "force_1"), but it has sizes.
+void NumberTable::find_partners() {
+    if (!layout_.named) return;
+    RawTable named;
+    for (const std::string& name : layout_.names) named.columns.push_back({name, {}, {}});
+    partners_ = partners_in(named);
+    const bool sizes = column_for("radius", named, {}, "") || column_for("diameter", named, {}, "");
+    if (sizes || (partners_ && (layout_.is_word[partners_->first] || layout_.is_word[partners_->second])))
+        partners_.reset();
+    if (partners_) id_.reset();
 }
 
 double NumberTable::clock_of(std::size_t column) const {
@@ -249,6 +265,10 @@ void NumberTable::find_frames() {
     if (frames_.empty()) frames_.emplace_back();
     sort_frames();
     for (FrameRows& frame : frames_) {
+        if (partners_) {
+            frame.moment.has_contacts = frame.moment.grains > 0;
+            frame.moment.grains = 0;
+        }
         moments_.push_back(frame.moment);
         runs_.push_back(std::move(frame.runs));
     }
@@ -289,7 +309,7 @@ void NumberTable::add_row(std::vector<ColumnFiller>& columns) const {
         if (!value)
             fault(fmt::format("column {} ({}) has {}, which is no number", i + 1, columns[i].name(),
                               in_quotes(cells_[i].text)));
-        if (!std::isfinite(*value) && is_place(columns[i].name()))
+        if (!std::isfinite(*value) && !partners_ && is_place(columns[i].name()))
             fault(fmt::format("the grain has no place: its {} is {}", columns[i].name(),
                               in_quotes(cells_[i].text)));
         columns[i].add_number(*value);
@@ -304,6 +324,21 @@ void NumberTable::add_rows(std::vector<ColumnFiller>& columns, const RowGroup& r
     }
 }
 
+// Gives the partners names that are known. DEM-Engine has the number of a wall or mesh in the second column,
+// if its contact_type says so; in all formats wall k is the partner -1 - k.
+void NumberTable::name_partners_of(RawTable& contacts) const {
+    RawColumn& second = contacts.columns[partners_->second];
+    if (const RawColumn* const kind = contacts.find("contact_type"); kind && !kind->words.empty())
+        for (std::size_t row = 0; row < contacts.rows; ++row) {
+            const std::string& word = kind->words[static_cast<std::size_t>(kind->values[row])];
+            if (word == "SA" || word == "SM") second.values[row] = -1 - second.values[row];
+        }
+    if (column_for("id1", contacts, {}, "") && column_for("id2", contacts, {}, "")) return;
+    const std::vector<double> one = contacts.columns[partners_->first].values, other = second.values;
+    contacts.columns.push_back({"id1", one, {}});
+    contacts.columns.push_back({"id2", other, {}});
+}
+
 RawFrame NumberTable::read(std::size_t index) const {
     const std::lock_guard lock(reading_);
     std::vector<ColumnFiller> columns;
@@ -313,8 +348,10 @@ RawFrame NumberTable::read(std::size_t index) const {
     RawFrame frame;
     frame.time = moments_[index].time;
     frame.step = moments_[index].step;
-    frame.grains.rows = static_cast<std::size_t>(moments_[index].grains);
-    for (ColumnFiller& column : columns) frame.grains.columns.push_back(column.finish());
+    RawTable& table = partners_ ? frame.contacts : frame.grains;
+    for (const RowGroup& run : runs_[index]) table.rows += static_cast<std::size_t>(run.rows);
+    for (ColumnFiller& column : columns) table.columns.push_back(column.finish());
+    if (partners_) name_partners_of(table);
     return frame;
 }
 
@@ -329,7 +366,8 @@ std::unique_ptr<RawFile> open_table(const std::filesystem::path& file) {
 }  // namespace
 
 RawFormat number_table_format() {
-    return {"table", "tables of numbers (CSV, tabs, blanks), a row a grain", takes_table, open_table};
+    return {"table", "tables of numbers (CSV, tabs, blanks), a row a grain or a contact", takes_table,
+            open_table};
 }
 
 }  // namespace grainreel
