@@ -36,8 +36,8 @@ class Compare final : public Verb {
             ->type_name("FILE|DIR");
         add_vary(parser);
         add_captions(parser);
-        CLI::Option* at =
-            add_time(parser, "--at", request_.at, "Draw only this moment, to a PNG file in the folder");
+        CLI::Option* at = add_time(parser, "--at", request_.at,
+                                   "Draw only this moment, to a PNG or PDF file in the folder");
         add_print_size(parser, request_.print);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);

@@ -6,9 +6,11 @@
 #include <atomic>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/run/still.hpp"
+#include "render/picture/base/pdf_page.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 
@@ -78,10 +80,16 @@ bool CompareJob::draw_still(Shots& frames) {
     if (const std::string note = drawer.gl_note(); !note.empty()) desk_.listener.info(note);
     desk_.record.gl = drawer.gl_description();
     const auto segment = static_cast<std::size_t>(moment.segment);
+    const State& state = *frames[all_.reference];
+    still_ = fmt::format("still-{}s.{}", seconds_in_names(moment.time), all_.pdf ? "pdf" : "png");
+    if (all_.pdf) {
+        PdfPage page(all_.film.film.width, all_.film.film.height, all_.dots_an_inch);
+        drawer.draw_page(page, frames, segment, all_.reference, *all_.still);
+        replace_file(folder() / still_, page.finish(title_of_still(all_.film, state)));
+        return true;
+    }
     const Picture& picture = drawer.draw(frames, segment, all_.reference, *all_.still);
-    still_ = fmt::format("still-{}s.png", seconds_in_names(moment.time));
-    write_png(folder() / still_, picture,
-              texts_of(all_.film.name, all_.film.title, *frames[all_.reference], ""),
+    write_png(folder() / still_, picture, texts_of(all_.film.name, all_.film.title, state, ""),
               all_.film.film.transparent, all_.dots_an_inch);
     return true;
 }

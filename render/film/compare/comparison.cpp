@@ -126,6 +126,7 @@ Comparison read_comparison(const CompareRequest& what, const FilmRequest& film) 
     all.film = whole(scenes_of(all));
     fit_to_paper(all.film.film, what.print);
     all.dots_an_inch = dots_an_inch(what.print);
+    all.pdf = what.print.pdf;
     choose_moments(what, all);
     make_panels(what, all);
     return all;

@@ -455,7 +455,10 @@ TEST_F(RenderProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
         {{"render", "run", "--out", "empty/..", "--force"}, "--out"},
         {{"render", "run", "--at", "0", "--out", "taken.png"}, "--out taken.png: exists already"},
         {{"render", "run", "--at", "0", "--out", "gone/x.png"}, "there is no folder gone"},
-        {{"render", "run", "--at", "0", "--out", "x.jpg"}, "ends in .png"},
+        {{"render", "run", "--at", "0", "--out", "x.jpg"}, "ends in .png or .pdf"},
+        {{"render", "run", "--at", "0", "--pdf", "--out", "x.png"},
+         "with --pdf, name a file that ends in .pdf"},
+        {{"render", "run", "--pdf"}, "--pdf: is for one picture; add --at"},
     };
     const auto entries = entries_of(here.path()), of_run = entries_of(here / "run");
     for (const auto& [words, part] : cases) {
