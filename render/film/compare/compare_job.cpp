@@ -105,6 +105,7 @@ bool CompareJob::draw_film(Shots& frames) {
     for (const std::size_t segment : segment_of) {
         if (!next(frames)) return false;
         const auto timer = desk_.times.during("waiting for the film");
+        film_.note(*frames[all_.reference]);
         film_.maker().take(frames, playback_of_all(all_.panels, segment));
     }
     return true;
@@ -165,6 +166,7 @@ void CompareJob::keep_state() {
 void CompareJob::side_work_closed() {
     const auto watcher = [&](const std::string& format, double done) { return tell_export(format, done); };
     for (const auto& member : all_.members) member->write_other_formats(watcher);
+    film_.write_times();
 }
 
 void CompareJob::conclude() {
@@ -187,9 +189,9 @@ void CompareJob::report_written() {
     }
     const std::string runs =
         folders.empty() ? "" : fmt::format("{} (each a run), ", fmt::join(folders, ", "));
-    desk_.listener.info(fmt::format("wrote {}: {}{}run.json, log.txt", folder().string(),
-                                    all_.still && !still_.empty() ? still_ + ", " : film_.files_text(),
-                                    runs));
+    desk_.listener.info(fmt::format("wrote {}: {}{}run.json, log.txt{}", folder().string(),
+                                    all_.still && !still_.empty() ? still_ + ", " : film_.files_text(), runs,
+                                    page_text()));
     desk_.listener.info(fmt::format("took {}: {} panels, from {:.6g} to {:.6g} s",
                                     duration_text(desk_.watch.seconds()), all_.members.size(),
                                     all_.pictures.instants.front().time, all_.pictures.instants.back().time));
