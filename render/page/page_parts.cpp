@@ -58,8 +58,9 @@ std::string plan_html(const PlannedScene& planned, const PageWords& say) {
            "restitution in a "
            "free impact, found by making the impact.</p>\n" +
            list_html(planned.lines) +
-           fmt::format("<h3{0}>{1}</h3>\n<pre tabindex=\"0\" aria-label=\"{1}\">{2}</pre>\n", say.on_own(),
-                       html_text(say("Contacts")), html_text(planned.contacts));
+           fmt::format(
+               "<h3{0}>{1}</h3>\n<pre class=\"columns\" tabindex=\"0\" aria-label=\"{1}\">{2}</pre>\n",
+               say.on_own(), html_text(say("Contacts")), html_text(planned.contacts));
 }
 
 std::string provenance_html(const ReadRunJson& run, const PageWords& say) {
@@ -169,17 +170,19 @@ std::string drive_words(const FilmedScene& scene, const PageWords& say) {
 
 }  // namespace
 
-std::string lead_text(const FilmedScene& scene, const PageWords& say) {
+std::string lead_text(const FilmedScene& scene, const PageWords& say, RunOf of) {
     std::string species;
     for (const Species& one : scene.species)
         if (one.all() > 0)  // otherwise all its grains are glued to walls
             species = species.empty() ? number_words(one, say)
                                       : say("{1} and {2}", {species, number_words(one, say)});
-    return fmt::format("{}, {}, {}", species, place_words(scene, say), drive_words(scene, say));
+    const bool told = of == RunOf::us || scene.drive.present;  // else whether it was driven is not known
+    return fmt::format("{}, {}, {}", species, place_words(scene, say),
+                       told ? drive_words(scene, say) : fmt::format("{:.4g} s", scene.run.duration));
 }
 
-std::string lead_html(const FilmedScene& scene, const PageWords& say) {
-    return fmt::format("<p class=\"lead\">{}.</p>\n", html_text(lead_text(scene, say)));
+std::string lead_html(const FilmedScene& scene, const PageWords& say, RunOf of) {
+    return fmt::format("<p class=\"lead\">{}.</p>\n", html_text(lead_text(scene, say, of)));
 }
 
 std::string end_html(const FilmedScene& scene, const ReadRunJson& run, double until, const PageWords& say) {
@@ -303,16 +306,17 @@ std::string story_html(const FilmedScene& scene, const fs::path& folder, const P
 
 std::string chapters_html(const FilmedScene& scene, const ReadRunJson& run,
                           const std::optional<PlannedScene>& planned, const fs::path& folder,
-                          const std::string& page_name, const PageWords& say, const std::string& n) {
+                          const std::string& page_name, const PageWords& say, const std::string& n,
+                          RunOf of) {
     std::string html = story_html(scene, folder, say);
-    if (planned) {
+    if (planned && of == RunOf::us) {
         html += chapter(say, "What was computed", plan_html(*planned, say));
         const Methods text = methods(scene, planned->plan, run.record, planned->lines);
         html += chapter(say, "To cite",
                         copyable(say, "methods" + n, "Methods", text.paragraph, "wraps") +
                             copyable(say, "bibtex" + n, "BibTeX", text.bibtex, "plain"));
     }
-    html += chapter(say, "Where it comes from", provenance_html(run, say));
+    if (of == RunOf::us) html += chapter(say, "Where it comes from", provenance_html(run, say));
     const bool beside = !page_name.empty();
     html += scene_html(folder, say, n, beside);
     return beside ? html + chapter(say, "Files of the run", files_html(folder, page_name)) : html;

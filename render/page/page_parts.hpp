@@ -15,9 +15,12 @@
 
 namespace grainreel {
 
+// Whose run it is. Files of other programs do not tell how it was computed or how it ended.
+enum class RunOf { us, others };
+
 // A sentence that says what the run is; lead_text() has no full stop and no HTML.
-std::string lead_text(const FilmedScene& scene, const PageWords& say);
-std::string lead_html(const FilmedScene& scene, const PageWords& say);
+std::string lead_text(const FilmedScene& scene, const PageWords& say, RunOf of = RunOf::us);
+std::string lead_html(const FilmedScene& scene, const PageWords& say, RunOf of = RunOf::us);
 
 // For a run that was not completed: how it ended. until: the time in s that it reached. Empty for a complete
 // run.
@@ -43,6 +46,7 @@ std::string story_html(const FilmedScene& scene, const std::filesystem::path& fo
 // ids of elements.
 std::string chapters_html(const FilmedScene& scene, const ReadRunJson& run,
                           const std::optional<PlannedScene>& planned, const std::filesystem::path& folder,
-                          const std::string& page_name, const PageWords& say, const std::string& n = "");
+                          const std::string& page_name, const PageWords& say, const std::string& n = "",
+                          RunOf of = RunOf::us);
 
 }  // namespace grainreel

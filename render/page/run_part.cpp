@@ -84,9 +84,8 @@ void RunPart::read(const PageProgress& progress) {
     poster_ = page_poster(film_folder());
     times_ = film_times_of();
     fields_ = page_fields(scene(), folder);
-    lead_ = lead_html(scene(), say_);
-    // Files of another program do not tell how their run ended.
-    if (!imported()) lead_ += end_html(scene(), run_json_, kept_span().to, say_);
+    lead_ = lead_html(scene(), say_, run_of());
+    if (run_of() == RunOf::us) lead_ += end_html(scene(), run_json_, kept_span().to, say_);
     if (table_ && table_fault_.empty())
         late_blobs_ = blob("measures-bytes" + n_, packed_table(folder / "measures.csv"));
     whole_table_ = !late_blobs_.empty();
@@ -192,7 +191,7 @@ Span RunPart::span() const {
 }
 
 std::string RunPart::film(bool beside) const {
-    return film_html(film_, poster_, times_.why_not, lead_text(scene(), say_), say_, n_, beside);
+    return film_html(film_, poster_, times_.why_not, lead_text(scene(), say_, run_of()), say_, n_, beside);
 }
 
 std::string RunPart::bed() const {
@@ -241,7 +240,7 @@ std::string RunPart::charts_about() const {
 
 std::string RunPart::chapters(const fs::path& page, bool on_page_of_its_own) const {
     return chapters_html(scene(), run_json_, run_.planned, run_.folder,
-                         on_page_of_its_own ? page.filename().string() : "", say_, n_);
+                         on_page_of_its_own ? page.filename().string() : "", say_, n_, run_of());
 }
 
 std::string RunPart::facts() const {
@@ -301,7 +300,7 @@ std::vector<std::string> RunPart::news() const {
     const auto add = [&](const std::string& line) {
         if (!line.empty()) news.push_back(line);
     };
-    if (!run_json_.fault.empty() && !imported())
+    if (!run_json_.fault.empty() && run_of() == RunOf::us)
         add(run_json_.fault + "; how the run ended and what made it are not on the page");
     if (!no_charts_.empty()) add(no_charts_ + "; the page has no charts");
     if (!table_fault_.empty() && news.end() == std::find_if(news.begin(), news.end(), [&](const auto& line) {

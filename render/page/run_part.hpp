@@ -11,6 +11,7 @@
 #include "render/page/facts/methods.hpp"
 #include "render/page/facts/page_facts.hpp"
 #include "render/page/page_measures.hpp"
+#include "render/page/page_parts.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -58,8 +59,9 @@ class RunPart {
     FilmTimes film_times_of();
     const std::filesystem::path& film_folder() const;
     std::optional<std::int64_t> film_frames() const;
-    // Whether its files are of another program, so that it has no run.json.
-    bool imported() const { return run_.run && run_.run->kind() == StoredRun::Kind::imported; }
+    RunOf run_of() const {
+        return run_.run && run_.run->kind() == StoredRun::Kind::imported ? RunOf::others : RunOf::us;
+    }
     std::vector<std::string> lacking_files() const;
     std::string in_folder(const std::string& line) const;
     std::string no_moments() const;

@@ -102,6 +102,8 @@ class Charts {
         words.append(remove);
         const canvas = element("div", {role: "img", "aria-label": summary});
         frame.append(words, canvas);
+        if (this.runs.length === 1) frame.classList.add("alone");
+        if (column.smooth) frame.append(element("p", {className: "faint"}, tr("mean of a period; the faint line has all rows")));
         this.place.append(frame);
         const plot = new uPlot(this.optionsOf(column, canvas), this.dataOf(name), canvas);
         this.plots.set(name, plot);
