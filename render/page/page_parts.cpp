@@ -72,7 +72,8 @@ std::string provenance_html(const ReadRunJson& run, const PageWords& say) {
     return html + "</ul>\n";
 }
 
-std::string scene_html(const fs::path& folder, const PageWords& say, const std::string& n, bool beside) {
+std::string scene_html(const fs::path& folder, const PageWords& say, const std::string& n, bool beside,
+                       RunOf of) {
     std::string text;
     try {
         text = load_scene_file(folder / "scene.toml");
@@ -84,10 +85,13 @@ std::string scene_html(const fs::path& folder, const PageWords& say, const std::
                        fmt::format("<p>The scene is too long for this page; it is {} in the run's "
                                    "folder.</p>\n",
                                    beside ? "<a href=\"./scene.toml\">scene.toml</a>" : "scene.toml"));
-    return chapter(say, "Scene",
-                   "<p>Every value, defaults too. Saved as a file, <code>grainreel movie FILE</code> runs it "
-                   "again.</p>\n" +
-                       copyable(say, "scene-text" + n, "scene.toml", text, "plain"));
+    return chapter(
+        say, "Scene",
+        (of == RunOf::us
+             ? "<p>Every value, defaults too. Saved as a file, <code>grainreel movie FILE</code> runs it "
+               "again.</p>\n"
+             : std::string()) +
+            copyable(say, "scene-text" + n, "scene.toml", text, "plain"));
 }
 
 std::string files_html(const fs::path& folder, const std::string& page_name) {
@@ -318,7 +322,7 @@ std::string chapters_html(const FilmedScene& scene, const ReadRunJson& run,
     }
     if (of == RunOf::us) html += chapter(say, "Where it comes from", provenance_html(run, say));
     const bool beside = !page_name.empty();
-    html += scene_html(folder, say, n, beside);
+    html += scene_html(folder, say, n, beside, of);
     return beside ? html + chapter(say, "Files of the run", files_html(folder, page_name)) : html;
 }
 

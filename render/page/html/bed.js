@@ -28,9 +28,21 @@ class BedPanel {
         this.showTime(runTime.now);
         runTime.listen((time) => this.showTime(time));
         new ResizeObserver(() => this.viewer.change()).observe(this.canvas);
-        for (const query of ["(prefers-color-scheme: dark)", "print"])
-            matchMedia(query).addEventListener("change", () => this.viewer.draw());
-        addEventListener("beforeprint", () => this.viewer.draw());
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.viewer.draw());
+        this.printed = element("canvas", {className: "bed-print"});
+        this.printed.setAttribute("aria-hidden", "true");
+        this.canvas.after(this.printed);
+        matchMedia("print").addEventListener("change", () => this.drawForPrint());
+        addEventListener("beforeprint", () => this.drawForPrint());
+    }
+
+    // Printers may see what WebGL has drawn as black, so they get a copy.
+    drawForPrint() {
+        if (this.canvas.clientWidth === 0) return;
+        this.viewer.draw();
+        const {width, height} = this.canvas;
+        Object.assign(this.printed, {width, height});
+        this.printed.getContext("2d").drawImage(this.canvas, 0, 0);
     }
 
     part(name) {

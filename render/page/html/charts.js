@@ -250,7 +250,8 @@ function titleOf(column, unit) {
 /** Ticks with as many decimals as their distance needs. */
 function tickTexts(ticks) {
     const distance = ticks.length > 1 ? Math.abs(ticks[1] - ticks[0]) : 1;
-    const decimals = Math.min(9, Math.max(0, Math.ceil(-Math.log10(distance) - 1e-9)));
+    let decimals = 0;
+    while (decimals < 9 && Math.abs(distance * 10 ** decimals - Math.round(distance * 10 ** decimals)) > 1e-6 * distance * 10 ** decimals) ++decimals;
     const largest = Math.max(...ticks.map(Math.abs));
     if (decimals > 4 || largest >= 1e5) return ticks.map(numberText);
     return ticks.map((tick) => withMinus((Math.abs(tick) < 1e-6 * distance ? 0 : tick).toFixed(decimals)));

@@ -11,7 +11,7 @@ class Viewer {
         this.frames = frames;
         this.walls = walls;
         this.camera = camera;
-        this.gl = canvas.getContext("webgl2", {alpha: false, antialias: true, preserveDrawingBuffer: true /* else it is black in print */});
+        this.gl = canvas.getContext("webgl2", {alpha: false, antialias: true, preserveDrawingBuffer: false});
         if (!this.gl) throw new Error("this browser has no WebGL 2, or it is switched off");
         this.frame = 0;
         this.chosen = -1;
