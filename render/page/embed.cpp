@@ -89,6 +89,12 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     return text;
 }
 
+std::string blob(const std::string& id, std::span<const std::uint8_t> bytes) {
+    if (bytes.empty()) return "";
+    return fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", id,
+                       base64(bytes));
+}
+
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
     constexpr std::uintmax_t most = 64'000'000;
     std::error_code error;

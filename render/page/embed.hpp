@@ -33,6 +33,9 @@ std::string filled(std::string_view page, const std::vector<std::pair<std::strin
 // Base64 of RFC 4648 with padding, in one line. None of its characters has a meaning in HTML.
 std::string base64(std::span<const std::uint8_t> bytes);
 
+// Puts bytes into an element that no browser runs or shows; empty without bytes.
+std::string blob(const std::string& id, std::span<const std::uint8_t> bytes);
+
 // Reads a file of moderate size. Throws RunError when it cannot be read, or has more bytes than a page may
 // have.
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path);

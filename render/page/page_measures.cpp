@@ -24,6 +24,17 @@ constexpr std::size_t most_charts = 4;
 constexpr const char* usual[] = {"height_difference", "unlike_neighbours", "centre_z_m", "contact_number",
                                  "kinetic_J"};
 
+// The units in which values of any size are shown, from the largest; empty for pure numbers.
+std::vector<std::pair<std::string, double>> units_of(Dimension dimension) {
+    std::vector<std::pair<std::string, double>> units;
+    for (double value = 1e9; value > 1e-13; value /= 10) {
+        const std::string unit = fitting_unit(value, dimension);
+        if (unit.empty() || unit == "1" || (!units.empty() && units.back().first == unit)) continue;
+        units.emplace_back(unit, unit_size(unit, dimension));
+    }
+    return units;
+}
+
 std::vector<PageColumn> columns_of(const FilmedScene& scene, const MeasureTable& table) {
     const std::vector<MeasureColumn> known = measure_columns(scene);
     std::vector<PageColumn> columns;
@@ -35,7 +46,14 @@ std::vector<PageColumn> columns_of(const FilmedScene& scene, const MeasureTable&
             column.label = found->label;
             const std::string_view unit = text_of(found->dimension).unit;
             if (unit != "1") column.unit = unit;
+            column.units = units_of(found->dimension);
+            column.label = phrase(scene.film.wording.language, column.label);
         }
+        for (const FilmPlot& plot : scene.film.shows.plots)
+            if (plot.column == name) {
+                column.label = plot.label;
+                column.smooth = plot.period && scene.drive.present;
+            }
         columns.push_back(std::move(column));
     }
     return columns;
@@ -75,6 +93,10 @@ PageMeasures page_measures(const FilmedScene& scene, const MeasureTable& table) 
         if (column == page.columns.size() || has_it || !changes(table, column)) continue;
         if (page.charted.size() < most_charts) page.charted.push_back(column);
     }
+    const bool smooth = std::any_of(page.columns.begin(), page.columns.end(),
+                                    [](const PageColumn& column) { return column.smooth; });
+    if (const std::size_t cycles = index_of("cycles"); smooth && cycles < page.columns.size())
+        page.cycles = cycles;
     page.rows = spread_rows(table.rows(), kMostRowsAtOnce);
     return page;
 }

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/measure/measures.hpp"
@@ -15,13 +17,18 @@ struct PageColumn {
     std::string name;   // name in measures.csv
     std::string label;  // in words
     std::string unit;   // SI; empty for pure numbers
+    // The units that a chart may show, from the largest, with their sizes in SI. Empty for pure numbers.
+    std::vector<std::pair<std::string, double>> units = {};
+    bool smooth =
+        false;  // its line is the mean over the last period, as in the film, with the rows faint behind
 };
 
 struct PageMeasures {
-    std::vector<PageColumn> columns;   // all of measures.csv, in its order
-    std::vector<std::size_t> charted;  // those of them that have a chart at first
-    std::vector<std::size_t> rows;     // the rows that charts show as the page opens, evenly spread
-    std::size_t time = 0;              // index of the column of time
+    std::vector<PageColumn> columns;    // all of measures.csv, in its order
+    std::vector<std::size_t> charted;   // those of them that have a chart at first
+    std::vector<std::size_t> rows;      // the rows that charts show as the page opens, evenly spread
+    std::size_t time = 0;               // index of the column of time
+    std::optional<std::size_t> cycles;  // index of the column of periods, where a line is smooth
 };
 
 // The indices of at most `most` out of so many rows, evenly spread, with the first and the last.
@@ -30,8 +37,8 @@ std::vector<std::size_t> spread_rows(std::size_t rows, std::size_t most);
 constexpr std::size_t kMostRowsAtOnce = 2000;
 
 // Chooses columns and charts, four charts at most. The film's plots come first, then the measures that
-// usually matter. A measure gets a chart only if its values change. Without a column of time nothing is
-// charted.
+// usually matter. Labels and smoothing are the film's, in its language. A measure gets a chart only if its
+// values change. Without a column of time nothing is charted.
 PageMeasures page_measures(const FilmedScene& scene, const MeasureTable& table);
 
 // The fields of a run as a page has them: in the plane that the film looks at, one byte for each cell and

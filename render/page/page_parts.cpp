@@ -34,36 +34,46 @@ std::string list_html(const NamedLines& lines) {
     return html + "</dl>\n";
 }
 
-std::string chapter(const char* title, const std::string& html) {
-    return fmt::format("<section><h2>{}</h2>\n{}</section>\n", title, html);
+// A chapter whose text is in the page's language.
+std::string own_chapter(const std::string& title, const std::string& html) {
+    return fmt::format("<section><h2>{}</h2>\n{}</section>\n", html_text(title), html);
 }
 
-std::string copyable(const std::string& id, const char* label, const std::string& text, const char* style) {
+// A chapter whose text is English on every page.
+std::string chapter(const PageWords& say, const char* title, const std::string& html) {
+    return fmt::format("<section{}><h2{}>{}</h2>\n{}</section>\n", say.on_english(), say.on_own(),
+                       html_text(say(title)), html);
+}
+
+std::string copyable(const PageWords& say, const std::string& id, const char* label, const std::string& text,
+                     const char* style) {
     return fmt::format(
         "<h3>{0}</h3>\n<pre id=\"{1}\" class=\"{2}\" tabindex=\"0\" aria-label=\"{0}\">{3}</pre>\n"
-        "<p class=\"no-print\"><button type=\"button\" data-copies=\"{1}\">Copy</button></p>\n",
-        label, id, style, html_text(text));
+        "<p class=\"no-print\"><button type=\"button\" data-copies=\"{1}\">{4}</button></p>\n",
+        html_text(say(label)), id, style, html_text(text), html_text(say("Copy")));
 }
 
-std::string plan_html(const PlannedScene& planned) {
+std::string plan_html(const PlannedScene& planned, const PageWords& say) {
     return "<p>What was asked for, what is modelled, and what is left out. The error is that of the "
            "restitution in a "
            "free impact, found by making the impact.</p>\n" +
            list_html(planned.lines) +
-           fmt::format("<h3>Contacts</h3>\n<pre tabindex=\"0\" aria-label=\"Contacts\">{}</pre>\n",
-                       html_text(planned.contacts));
+           fmt::format(
+               "<h3{0}>{1}</h3>\n<pre class=\"columns\" tabindex=\"0\" aria-label=\"{1}\">{2}</pre>\n",
+               say.on_own(), html_text(say("Contacts")), html_text(planned.contacts));
 }
 
-std::string provenance_html(const ReadRunJson& run) {
+std::string provenance_html(const ReadRunJson& run, const PageWords& say) {
     std::string html = list_html(origin_lines(run));
     if (run.record.warnings.empty()) return html;
-    html += "<h3>Warnings of the run</h3>\n<ul>\n";
+    html += fmt::format("<h3{}>{}</h3>\n<ul>\n", say.on_own(), html_text(say("Warnings of the run")));
     for (const std::string& warning : run.record.warnings)
         html += fmt::format("<li>{}</li>\n", html_text(warning));
     return html + "</ul>\n";
 }
 
-std::string scene_html(const fs::path& folder, const std::string& n, bool beside) {
+std::string scene_html(const fs::path& folder, const PageWords& say, const std::string& n, bool beside,
+                       RunOf of) {
     std::string text;
     try {
         text = load_scene_file(folder / "scene.toml");
@@ -71,14 +81,17 @@ std::string scene_html(const fs::path& folder, const std::string& n, bool beside
         return "";
     }
     if (text.size() > most_scene_text)
-        return chapter("Scene",
+        return chapter(say, "Scene",
                        fmt::format("<p>The scene is too long for this page; it is {} in the run's "
                                    "folder.</p>\n",
                                    beside ? "<a href=\"./scene.toml\">scene.toml</a>" : "scene.toml"));
-    return chapter("Scene",
-                   "<p>Every value, defaults too. Saved as a file, <code>grainreel movie FILE</code> runs it "
-                   "again.</p>\n" +
-                       copyable("scene-text" + n, "scene.toml", text, "plain"));
+    return chapter(
+        say, "Scene",
+        (of == RunOf::us
+             ? "<p>Every value, defaults too. Saved as a file, <code>grainreel movie FILE</code> runs it "
+               "again.</p>\n"
+             : std::string()) +
+            copyable(say, "scene-text" + n, "scene.toml", text, "plain"));
 }
 
 std::string files_html(const fs::path& folder, const std::string& page_name) {
@@ -119,52 +132,64 @@ const char* words_of(Container::Shape shape) {
 }
 
 // Where the grains are; "in the vessel “drum” with “screw”" when walls come from files.
-std::string place_words(const FilmedScene& scene) {
+std::string place_words(const FilmedScene& scene, const PageWords& say) {
     const bool vessel = scene.container.shape == Container::Shape::mesh;
     std::vector<std::string> others;
     for (const SceneMesh& mesh : scene.meshes)
         if (!vessel || mesh.name != scene.container.mesh) others.push_back(fmt::format("“{}”", mesh.name));
-    std::string words = vessel ? fmt::format("in the vessel “{}”", scene.container.mesh)
-                               : std::string(words_of(scene.container.shape));
+    const std::string words =
+        vessel ? say("in the vessel “{1}”", {scene.container.mesh}) : say(words_of(scene.container.shape));
     if (others.empty()) return words;
     constexpr std::size_t most_named = 4;
-    std::string named = others.size() > most_named ? fmt::format("{} meshes", others.size()) : others.front();
-    for (std::size_t i = 1; i < others.size() && others.size() <= most_named; ++i)
-        named += (i + 1 == others.size() ? " and " : ", ") + others[i];
-    if (scene.container.shape == Container::Shape::none) return "with walls of any shape, " + named;
-    return words + " with " + named;
+    std::string named = others.front();
+    for (std::size_t i = 1; i < others.size(); ++i)
+        named = i + 1 == others.size() ? say("{1} and {2}", {named, others[i]}) : named + ", " + others[i];
+    if (others.size() > most_named) named = say("{1} meshes", {std::to_string(others.size())});
+    if (scene.container.shape == Container::Shape::none) return say("with walls of any shape, {1}", {named});
+    return say("{1} with {2}", {words, named});
 }
 
 // The number of grains in words: "400 sand (and 300 more that are fed)".
-std::string number_words(const Species& species) {
-    if (species.fed == 0) return fmt::format("{} {}", species.count, species.name);
-    if (species.count == 0) return fmt::format("{} {} that are fed", species.fed, species.name);
-    return fmt::format("{} {} (and {} more that are fed)", species.count, species.name, species.fed);
+std::string number_words(const Species& species, const PageWords& say) {
+    const std::string count = std::to_string(species.count), fed = std::to_string(species.fed);
+    if (species.fed == 0) return fmt::format("{} {}", count, species.name);
+    if (species.count == 0) return say("{1} {2} that are fed", {fed, species.name});
+    return say("{1} {2} (and {3} more that are fed)", {count, species.name, fed});
 }
 
-std::string drive_words(const FilmedScene& scene) {
+std::string drive_words(const FilmedScene& scene, const PageWords& say) {
     const Drive& drive = scene.drive;
-    if (!drive.present) return fmt::format("without a drive, for {:.4g} s", scene.run.duration);
+    const std::string duration = fmt::format("{:.4g}", scene.run.duration);
+    if (!drive.present) return say("without a drive, for {1} s", {duration});
     const double gravity = scene.gravity.norm();
-    const std::string level =
-        gravity > 0 ? fmt::format(" with Γ = {:.3g}", drive.g_level(gravity)) : std::string();
-    return fmt::format("shaken at {:.4g} Hz{} (amplitude {:.3g} mm){} for {:.4g} s", drive.frequency, level,
-                       1000 * drive.amplitude, drive.changes() ? " and then otherwise," : "",
-                       scene.run.duration);
+    const std::string frequency = fmt::format("{:.4g}", drive.frequency),
+                      amplitude = fmt::format("{:.3g}", 1000 * drive.amplitude),
+                      level = gravity > 0 ? fmt::format("{:.3g}", drive.g_level(gravity)) : "";
+    const std::string words =
+        level.empty() ? say("shaken at {1} Hz (amplitude {2} mm) for {3} s", {frequency, amplitude, duration})
+                      : say("shaken at {1} Hz with Γ = {4} (amplitude {2} mm) for {3} s",
+                            {frequency, amplitude, duration, level});
+    return drive.changes() ? say("{1} and then otherwise", {words}) : words;
 }
 
 }  // namespace
 
-std::string lead_html(const FilmedScene& scene) {
+std::string lead_text(const FilmedScene& scene, const PageWords& say, RunOf of) {
     std::string species;
     for (const Species& one : scene.species)
         if (one.all() > 0)  // otherwise all its grains are glued to walls
-            species += fmt::format("{}{}", species.empty() ? "" : " and ", number_words(one));
-    return fmt::format("<p class=\"lead\">{}, {}, {}.</p>\n", html_text(species),
-                       html_text(place_words(scene)), drive_words(scene));
+            species = species.empty() ? number_words(one, say)
+                                      : say("{1} and {2}", {species, number_words(one, say)});
+    const bool told = of == RunOf::us || scene.drive.present;  // else whether it was driven is not known
+    return fmt::format("{}, {}, {}", species, place_words(scene, say),
+                       told ? drive_words(scene, say) : fmt::format("{:.4g} s", scene.run.duration));
 }
 
-std::string end_html(const FilmedScene& scene, const ReadRunJson& run, double until) {
+std::string lead_html(const FilmedScene& scene, const PageWords& say, RunOf of) {
+    return fmt::format("<p class=\"lead\">{}.</p>\n", html_text(lead_text(scene, say, of)));
+}
+
+std::string end_html(const FilmedScene& scene, const ReadRunJson& run, double until, const PageWords& say) {
     if (run.status == "complete") return "";
     const std::string at = fmt::format("{:.4g} of {:.4g} s", std::max(0.0, until), scene.run.duration);
     std::string text;
@@ -179,32 +204,33 @@ std::string end_html(const FilmedScene& scene, const ReadRunJson& run, double un
         text = fmt::format("The run was broken off at {}: it was killed, or its machine went off.", at);
     else
         text = fmt::format("The run’s status is “{}”; it came to {}.", run.status, at);
-    return fmt::format("<p class=\"ended\"><strong>{}</strong> This page has what it kept until then.</p>\n",
-                       html_text(text));
+    return fmt::format(
+        "<p class=\"ended\"{}><strong>{}</strong> This page has what it kept until then.</p>\n",
+        say.on_english(), html_text(text));
 }
 
 std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
-                      const std::string& why_not_tied, const std::string& n, bool beside) {
+                      const std::string& why_not_tied, const std::string& about, const PageWords& say,
+                      const std::string& n, bool beside) {
     const std::string picture =
         poster.empty() ? "" : fmt::format("data:image/jpeg;base64,{}", base64(poster));
-    const char* about = "One picture of the run: grains in their container, with time and scale beside them";
     std::string html;
     if (!film.bytes.empty())
-        html = fmt::format(
-            "<video id=\"film{}\" controls muted playsinline aria-label=\"Film of the run\"{}></video>\n", n,
-            picture.empty() ? "" : fmt::format(" poster=\"{}\"", picture));
+        html = fmt::format("<video id=\"film{}\" controls muted playsinline aria-label=\"{}\"{}></video>\n",
+                           n, html_text(say("Film of the run: {1}", {about})),
+                           picture.empty() ? "" : fmt::format(" poster=\"{}\"", picture));
     if (!picture.empty())
-        html += fmt::format("<img class=\"poster\" src=\"{}\" alt=\"{}\"{}>\n", picture, about,
+        html += fmt::format("<img class=\"poster\" src=\"{}\" alt=\"{}\"{}>\n", picture,
+                            html_text(say("One picture of the run: {1}", {about})),
                             film.bytes.empty() ? "" : " hidden");
-    if (html.empty()) html = "<p>The run has no film and no poster.</p>\n";
+    if (html.empty()) html = fmt::format("<p>{}</p>\n", html_text(say("The run has no film and no poster.")));
     for (const std::string& note : {film.note, film.bytes.empty() ? std::string() : why_not_tied})
-        if (!note.empty()) html += fmt::format("<p class=\"faint\">{}</p>\n", html_text(note));
+        if (!note.empty())
+            html += fmt::format("<p class=\"faint\"{}>{}</p>\n", say.on_english(), html_text(note));
     if (film.whole_in_folder && beside)
-        html += fmt::format(
-            "<p class=\"faint no-print\"><a href=\"{}\" title=\"Opens while this page lies there\">{}</a> in "
-            "the "
-            "run's folder</p>\n",
-            file_link(film.file), html_text(film.file));
+        html += fmt::format("<p class=\"faint no-print\"><a href=\"{}\" title=\"{}\">{}</a></p>\n",
+                            file_link(film.file), html_text(say("Opens while this page lies there")),
+                            html_text(say("{1} in the run's folder", {film.file})));
     return html;
 }
 
@@ -269,7 +295,7 @@ std::string text_of_caption(const FilmCaption& caption, const MeasureTable* meas
 
 }  // namespace
 
-std::string story_html(const FilmedScene& scene, const fs::path& folder) {
+std::string story_html(const FilmedScene& scene, const fs::path& folder, const PageWords& say) {
     if (scene.film.captions.empty()) return "";
     const std::shared_ptr<const MeasureTable> measures =
         has_values(scene.film.captions) ? read_measures(folder / "measures.csv") : nullptr;
@@ -279,23 +305,25 @@ std::string story_html(const FilmedScene& scene, const fs::path& folder) {
             "<li data-from=\"{0:.9g}\" data-until=\"{1:.9g}\"><button type=\"button\" class=\"no-print\" "
             "data-time=\"{0:.9g}\">{0:.4g} s</button> <span>{2}</span></li>\n",
             caption.from, caption.to, html_text(text_of_caption(caption, measures.get())));
-    return chapter("What to look at", html + "</ol>\n");
+    return own_chapter(say("What to look at"), html + "</ol>\n");
 }
 
 std::string chapters_html(const FilmedScene& scene, const ReadRunJson& run,
                           const std::optional<PlannedScene>& planned, const fs::path& folder,
-                          const std::string& page_name, const std::string& n) {
-    std::string html = story_html(scene, folder);
-    if (planned) {
-        html += chapter("What was computed", plan_html(*planned));
+                          const std::string& page_name, const PageWords& say, const std::string& n,
+                          RunOf of) {
+    std::string html = story_html(scene, folder, say);
+    if (planned && of == RunOf::us) {
+        html += chapter(say, "What was computed", plan_html(*planned, say));
         const Methods text = methods(scene, planned->plan, run.record, planned->lines);
-        html += chapter("To cite", copyable("methods" + n, "Methods", text.paragraph, "wraps") +
-                                       copyable("bibtex" + n, "BibTeX", text.bibtex, "plain"));
+        html += chapter(say, "To cite",
+                        copyable(say, "methods" + n, "Methods", text.paragraph, "wraps") +
+                            copyable(say, "bibtex" + n, "BibTeX", text.bibtex, "plain"));
     }
-    html += chapter("Where it comes from", provenance_html(run));
+    if (of == RunOf::us) html += chapter(say, "Where it comes from", provenance_html(run, say));
     const bool beside = !page_name.empty();
-    html += scene_html(folder, n, beside);
-    return beside ? html + chapter("Files of the run", files_html(folder, page_name)) : html;
+    html += scene_html(folder, say, n, beside, of);
+    return beside ? html + chapter(say, "Files of the run", files_html(folder, page_name)) : html;
 }
 
 }  // namespace grainreel

@@ -9,6 +9,7 @@
 #include "render/page/embed.hpp"
 #include "render/page/facts/run_names.hpp"
 #include "render/page/run_part.hpp"
+#include "render/page/shown_film.hpp"
 
 namespace grainreel {
 namespace {
@@ -21,10 +22,13 @@ constexpr double films_share = 0.7;  // share of the progress: making a film sma
 
 class Page {
   public:
-    Page(const std::vector<PageRun>& runs, const fs::path& out, const PageProgress& progress)
-        : out_(out), progress_(progress) {
+    Page(const std::vector<PageRun>& runs, const fs::path& out, const PageProgress& progress,
+         const fs::path& film_of_all)
+        : out_(out), film_of_all_(film_of_all), progress_(progress) {
         const bool alone = runs.size() == 1;
-        const std::size_t most_film = std::min(kMostFilmOnPage, most_film_bytes / runs.size());
+        const std::size_t most_film =
+            std::min(kMostFilmOnPage, most_film_bytes / (runs.size() + (film_of_all.empty() ? 0 : 1)));
+        most_film_ = most_film;
         std::vector<RunToName> to_name;
         for (const PageRun& run : runs) to_name.push_back({run.folder, run.scene});
         const std::vector<std::string> names = names_of_runs(to_name);
@@ -34,7 +38,8 @@ class Page {
 
     ReportMade write() {
         read();
-        const std::string page = filled(page_files().page, parts_.size() == 1 ? alone() : side_by_side());
+        const std::string page =
+            filled(say().in(page_files().page), parts_.size() == 1 ? alone() : side_by_side());
         replace_file(out_, page);
         ReportMade made{out_, page.size(), {}};
         for (const RunPart& part : parts_)
@@ -50,6 +55,9 @@ class Page {
     }
 
   private:
+    // A page of several runs has the language of the first.
+    const PageWords& say() const { return parts_.front().words(); }
+
     // Whether the page lies in the folder of the run, with its files.
     bool lies_beside(const RunPart& part) const {
         std::error_code ignored;
@@ -61,6 +69,9 @@ class Page {
         const double each = 1.0 / static_cast<double>(parts_.size());
         std::size_t taken = script().size();
         double done = 0;
+        if (!film_of_all_.empty())
+            all_.emplace(parts_.front().scene(), film_of_all_, most_film_, kNoPageProgress);
+        if (all_) taken += all_->taken();
         for (RunPart& part : parts_) {
             part.read([&](double share) { return progress_(films_share * (done + each * share)); });
             taken += part.taken();
@@ -84,16 +95,17 @@ class Page {
         const bool beside = lies_beside(part);
         const PageFiles& files = page_files();
         const std::string body =
-            filled(files.body, {{"film", part.film(beside)},
-                                {"bed", part.bed()},
-                                {"fields", part.fields(2)},
-                                {"charts", filled(files.charts, {{"about", part.charts_about()}})}});
+            filled(say().in(files.body),
+                   {{"film", part.film(beside)},
+                    {"bed", part.bed()},
+                    {"fields", part.fields(2)},
+                    {"charts", filled(say().in(files.charts), {{"about", part.charts_about()}})}});
         return frame({{"title", part.title()},
                       {"body_class", ""},
                       {"lead", part.lead()},
                       {"body", body},
                       {"words", part.chapters(out_, beside)},
-                      {"facts", json_in_html(part.facts())},
+                      {"facts", json_in_html(say().with_words(part.facts()))},
                       {"blobs", part.bed_blob() + part.late_blobs()}});
     }
 
@@ -104,41 +116,57 @@ class Page {
         for (std::size_t k = 0; k < parts_.size(); ++k) {
             const RunPart& part = parts_[k];
             title += (k == 0 ? "" : ", ") + html_text(part.name());
-            columns += filled(files.variant, {{"n", fmt::format("-{}", k)},
-                                              {"name", html_text(part.name())},
-                                              {"folder", folder_line(part)},
-                                              {"lead", part.lead()},
-                                              {"film", part.film(beside)},
-                                              {"bed", part.bed()},
-                                              {"fields", part.fields(3)}});
-            words += fmt::format("<details><summary><h2>{}: in words</h2></summary>\n{}</details>\n",
-                                 html_text(part.name()), part.chapters(out_, beside));
+            columns +=
+                filled(say().in(files.variant), {{"n", fmt::format("-{}", k)},
+                                                 {"name", html_text(part.name())},
+                                                 {"folder", folder_line(part)},
+                                                 {"lead", part.lead()},
+                                                 {"film", all_ && !part.has_film() ? "" : part.film(beside)},
+                                                 {"bed", part.bed()},
+                                                 {"fields", part.fields(3)}});
+            words +=
+                fmt::format("<details><summary><h2>{}</h2></summary>\n{}</details>\n",
+                            html_text(say()("{1}: in words", {part.name()})), part.chapters(out_, beside));
             beds += part.bed_blob();
             late += part.late_blobs();
         }
         const std::string charts = fmt::format(
-            "<section aria-labelledby=\"charts-title\">\n<h2 id=\"charts-title\">Measures, on one time "
-            "axis</h2>\n{}"
+            "<section aria-labelledby=\"charts-title\">\n<h2 id=\"charts-title\">{}</h2>\n{}"
             "</section>\n",
-            filled(files.charts, {{"about", ""}}));
+            html_text(say()("Measures, on one time axis")), filled(say().in(files.charts), {{"about", ""}}));
         return frame(
             {{"title", common_title() + title},
              {"body_class", " class=\"several\""},
-             {"lead",
-              fmt::format("<p class=\"lead\">{} runs side by side, at the same time of each run.</p>\n",
-                          parts_.size())},
-             {"body",
-              fmt::format("<div class=\"variants\">\n{}</div>\n{}{}", columns, charts, differences())},
+             {"lead", fmt::format("<p class=\"lead\">{}</p>\n",
+                                  html_text(say()("{1} runs side by side, at the same time of each run.",
+                                                  {std::to_string(parts_.size())})))},
+             {"body", fmt::format("{}<div class=\"variants\">\n{}</div>\n{}{}", film_of_all(), columns,
+                                  charts, differences())},
              {"words", words},
-             {"facts", json_in_html(facts())},
-             {"blobs", beds + late}});
+             {"facts", json_in_html(say().with_words(facts()))},
+             {"blobs", beds + late + (all_ ? blob("film-bytes-all", all_->bytes()) : "")}});
+    }
+
+    // The film that shows all runs side by side.
+    std::string film_of_all() const {
+        if (!all_) return "";
+        std::string about;
+        for (const RunPart& part : parts_) about += (about.empty() ? "" : ", ") + part.name();
+        std::error_code ignored;
+        const fs::path folder = out_.has_parent_path() ? out_.parent_path() : fs::path(".");
+        return fmt::format(
+            "<section aria-labelledby=\"film-title\">\n<h2 id=\"film-title\">{}</h2>\n{}<p "
+            "id=\"film-says-all\" class=\"faint no-print\"></p>\n</section>\n",
+            html_text(say()("The film of all of them")),
+            all_->html(about, say(), "-all", fs::equivalent(folder, film_of_all_, ignored)));
     }
 
     // A line with the folder's name, if the run has another name.
-    static std::string folder_line(const RunPart& part) {
+    std::string folder_line(const RunPart& part) const {
         const std::string folder = part.folder().filename().string();
-        return part.name() == folder ? ""
-                                     : fmt::format("<p class=\"faint\">Folder {}</p>\n", html_text(folder));
+        return part.name() == folder
+                   ? ""
+                   : fmt::format("<p class=\"faint\">{}</p>\n", html_text(say()("Folder {1}", {folder})));
     }
 
     // The title that all runs share, "Brazil nut: ", if their names only tell what differs.
@@ -153,7 +181,7 @@ class Page {
     std::string differences() const {
         std::vector<NamedScene> scenes;
         for (const RunPart& part : parts_) scenes.push_back({part.name(), part.folder() / "scene.toml"});
-        return differences_html(scenes);
+        return differences_html(scenes, say());
     }
 
     // The facts of all runs. Their time goes from the earliest beginning to the latest end.
@@ -165,7 +193,8 @@ class Page {
             all = {std::min(all.from, span.from), std::max(all.to, span.to)};
             runs += (runs.empty() ? "" : ",") + part.facts();
         }
-        return fmt::format(R"({{"begin":{},"end":{},"frequency":null,"runs":[{}]}})", all.from, all.to, runs);
+        return fmt::format(R"({{"begin":{},"end":{},"frequency":null,"film":{},"runs":[{}]}})", all.from,
+                           all.to, all_ ? all_->facts() : "null", runs);
     }
 
     std::string script() const {
@@ -177,10 +206,13 @@ class Page {
         texts.emplace_back("style", std::string(page_files().style));
         texts.emplace_back("script", script());
         texts.emplace_back("live", "");
+        texts.emplace_back("lang", say().code());
         return texts;
     }
 
-    const fs::path out_;
+    const fs::path out_, film_of_all_;
+    std::size_t most_film_ = kMostFilmOnPage;
+    std::optional<ShownFilm> all_;  // the film that shows all runs
     const PageProgress& progress_;
     std::deque<RunPart> parts_;
 };
@@ -188,9 +220,9 @@ class Page {
 }  // namespace
 
 std::optional<ReportMade> write_report(const std::vector<PageRun>& runs, const fs::path& out,
-                                       const PageProgress& progress) {
+                                       const PageProgress& progress, const fs::path& film_of_all) {
     try {
-        return Page(runs, out, progress).write();
+        return Page(runs, out, progress, film_of_all).write();
     } catch (const PageStopped&) {
         return std::nullopt;
     }

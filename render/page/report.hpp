@@ -33,14 +33,17 @@ constexpr std::size_t kMostPageBytes = 20'000'000;
 // A run that a page shows.
 struct PageRun {
     std::filesystem::path folder;
-    FilmedScene scene;                    // named after the folder
-    std::shared_ptr<StoredRun> run;       // null for a run that kept no moment of its grains
-    std::optional<PlannedScene> planned;  // empty when the scene cannot be planned any more
+    FilmedScene scene;                       // named after the folder
+    std::shared_ptr<StoredRun> run;          // null for a run that kept no moment of its grains
+    std::optional<PlannedScene> planned;     // empty when the scene cannot be planned any more
+    std::filesystem::path film_folder = {};  // where film and poster lie; empty: in the run's folder
 };
 
 // Writes the page of one run, or of several side by side on one time axis. It is written completely or not at
-// all. Returns none when `progress` stopped it. Throws RunError when it cannot be written.
+// all. film_of_all: the folder of a film that shows all of them side by side; empty: there is none. Returns
+// none when `progress` stopped it. Throws RunError when it cannot be written.
 std::optional<ReportMade> write_report(const std::vector<PageRun>& runs, const std::filesystem::path& out,
-                                       const PageProgress& progress);
+                                       const PageProgress& progress,
+                                       const std::filesystem::path& film_of_all = {});
 
 }  // namespace grainreel

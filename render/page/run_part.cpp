@@ -25,13 +25,6 @@ constexpr std::size_t most_table_bytes = 2'000'000;  // bytes of measures.csv, p
 // of at most this number of moments, with at most this number of pairs in all, estimated from the grains.
 constexpr std::size_t most_chosen_keys = 40, most_chosen_pairs = 500'000, pairs_a_grain = 3;
 
-// Puts bytes into an element that no browser runs or shows.
-std::string blob(const std::string& id, const std::vector<std::uint8_t>& bytes) {
-    if (bytes.empty()) return "";
-    return fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", id,
-                       base64(bytes));
-}
-
 // The packed table; empty when it is too long or cannot be read.
 std::vector<std::uint8_t> packed_table(const fs::path& file) {
     try {
@@ -77,17 +70,22 @@ std::vector<std::string> news_of(const KeptList& all) {
 }  // namespace
 
 RunPart::RunPart(const PageRun& run, std::string name, std::string n, std::size_t most_film)
-    : run_(run), name_(std::move(name)), n_(std::move(n)), most_film_(most_film) {}
+    : run_(run),
+      name_(std::move(name)),
+      n_(std::move(n)),
+      most_film_(most_film),
+      say_(run.scene.film.wording) {}
 
 void RunPart::read(const PageProgress& progress) {
     const fs::path& folder = run_.folder;
     run_json_ = record_of_page(folder);
     read_table(folder / "measures.csv");
-    film_ = page_film(scene(), folder, run_json_.record.film_frames, progress, most_film_);
-    poster_ = page_poster(folder);
+    film_ = page_film(scene(), film_folder(), film_frames(), progress, most_film_);
+    poster_ = page_poster(film_folder());
     times_ = film_times_of();
     fields_ = page_fields(scene(), folder);
-    lead_ = lead_html(scene()) + end_html(scene(), run_json_, kept_span().to);
+    lead_ = lead_html(scene(), say_, run_of());
+    if (run_of() == RunOf::us) lead_ += end_html(scene(), run_json_, kept_span().to, say_);
     if (table_ && table_fault_.empty())
         late_blobs_ = blob("measures-bytes" + n_, packed_table(folder / "measures.csv"));
     whole_table_ = !late_blobs_.empty();
@@ -158,9 +156,18 @@ std::string RunPart::title() const {
     return html_text(scene().title.empty() ? scene().name : scene().title);
 }
 
+const std::filesystem::path& RunPart::film_folder() const {
+    return run_.film_folder.empty() ? run_.folder : run_.film_folder;
+}
+
+std::optional<std::int64_t> RunPart::film_frames() const {
+    return run_.film_folder.empty() ? run_json_.record.film_frames
+                                    : read_run_json(run_.film_folder / "run.json").record.film_frames;
+}
+
 FilmTimes RunPart::film_times_of() {
-    if (film_.bytes.empty() || !run_json_.record.film_frames) return {};
-    if (auto kept = kept_film_times(run_.folder, *run_json_.record.film_frames)) return *kept;
+    if (film_.bytes.empty() || !film_frames()) return {};
+    if (auto kept = kept_film_times(film_folder(), *film_frames())) return *kept;
     table_of_film_is_odd_ = is_there(run_.folder / kFilmTimes);
     return film_times(scene(), *run_json_.record.film_frames, kept_span().from,
                       run_json_.status == "complete");
@@ -184,12 +191,13 @@ Span RunPart::span() const {
 }
 
 std::string RunPart::film(bool beside) const {
-    return film_html(film_, poster_, times_.why_not, n_, beside);
+    return film_html(film_, poster_, times_.why_not, lead_text(scene(), say_, run_of()), say_, n_, beside);
 }
 
 std::string RunPart::bed() const {
     if (!run_.run) return fmt::format("<p>{}, so there is no bed to turn.</p>\n", no_moments());
-    return filled(page_files().bed, {{"about", bed_about(bed_, meshes_, scene())}, {"n", n_}});
+    return filled(say_.in(page_files().bed),
+                  {{"about", bed_about(bed_, meshes_, scene())}, {"n", n_}, {"english", say_.on_english()}});
 }
 
 std::string RunPart::fields(int level) const {
@@ -203,8 +211,10 @@ std::string RunPart::fields(int level) const {
     if (fields_.records.size() < fields_.all_records)
         about += fmt::format(" Of its {} records these are {}, evenly spread.", fields_.all_records,
                              fields_.records.size());
-    return filled(page_files().fields,
-                  {{"n", n_}, {"level", std::to_string(level)}, {"about", html_text(about)}});
+    return filled(say_.in(page_files().fields), {{"n", n_},
+                                                 {"level", std::to_string(level)},
+                                                 {"about", html_text(about)},
+                                                 {"english", say_.on_english()}});
 }
 
 // The line without the folder's path, which readers of the page do not know: "measures.csv:3: ...".
@@ -216,7 +226,7 @@ std::string RunPart::in_folder(const std::string& line) const {
 std::string RunPart::charts_about() const {
     if (!no_charts_.empty())
         return html_text(fmt::format("The page has no charts: {}.", in_folder(no_charts_)));
-    if (measures_.rows.empty()) return "The run has no measures.";
+    if (measures_.rows.empty()) return html_text(say_("The run has no measures."));
     if (!table_fault_.empty())
         return html_text(
             fmt::format("Charts end before the damage of the file: {}.", in_folder(table_fault_)));
@@ -230,7 +240,7 @@ std::string RunPart::charts_about() const {
 
 std::string RunPart::chapters(const fs::path& page, bool on_page_of_its_own) const {
     return chapters_html(scene(), run_json_, run_.planned, run_.folder,
-                         on_page_of_its_own ? page.filename().string() : "", n_);
+                         on_page_of_its_own ? page.filename().string() : "", say_, n_, run_of());
 }
 
 std::string RunPart::facts() const {
@@ -290,8 +300,7 @@ std::vector<std::string> RunPart::news() const {
     const auto add = [&](const std::string& line) {
         if (!line.empty()) news.push_back(line);
     };
-    const bool imported = run_.run && run_.run->kind() == StoredRun::Kind::imported;  // it has no run.json
-    if (!run_json_.fault.empty() && !imported)
+    if (!run_json_.fault.empty() && run_of() == RunOf::us)
         add(run_json_.fault + "; how the run ended and what made it are not on the page");
     if (!no_charts_.empty()) add(no_charts_ + "; the page has no charts");
     if (!table_fault_.empty() && news.end() == std::find_if(news.begin(), news.end(), [&](const auto& line) {

@@ -11,6 +11,7 @@
 #include "render/page/facts/methods.hpp"
 #include "render/page/facts/page_facts.hpp"
 #include "render/page/page_measures.hpp"
+#include "render/page/page_parts.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -32,12 +33,14 @@ class RunPart {
     const FilmedScene& scene() const { return run_.scene; }
     const std::filesystem::path& folder() const { return run_.folder; }
     const std::string& name() const { return name_; }
+    const PageWords& words() const { return say_; }
     std::string title() const;  // HTML
     Span span() const;          // span of the trajectory and the film
     // Whether the moments of the film's frames are known, so that the film moves with charts and bed.
     bool tied() const { return !times_.times.empty(); }
 
     std::string lead() const { return lead_; }
+    bool has_film() const { return !film_.bytes.empty() || !poster_.empty(); }
     std::string film(bool beside) const;  // beside: whether the page lies beside the film's file
     std::string bed() const;
     std::string fields(int level) const;  // level of its heading, 1 to 6; empty when the run kept no fields
@@ -54,6 +57,11 @@ class RunPart {
   private:
     void read_table(const std::filesystem::path& file);
     FilmTimes film_times_of();
+    const std::filesystem::path& film_folder() const;
+    std::optional<std::int64_t> film_frames() const;
+    RunOf run_of() const {
+        return run_.run && run_.run->kind() == StoredRun::Kind::imported ? RunOf::others : RunOf::us;
+    }
     std::vector<std::string> lacking_files() const;
     std::string in_folder(const std::string& line) const;
     std::string no_moments() const;
@@ -62,6 +70,7 @@ class RunPart {
     const PageRun& run_;
     const std::string name_, n_;
     const std::size_t most_film_;
+    const PageWords say_;
     ReadRunJson run_json_;
     std::shared_ptr<const MeasureTable> table_;  // null without measures
     PageMeasures measures_;

@@ -29,7 +29,8 @@ TEST(Differences, OnlyWhatDiffersIsInTheTable) {
     test::write_text(here / "a.toml", "title = \"<i>a</i>\"\n[run]\nduration = 1\nstep = 0.3\n");
     test::write_text(here / "b.toml",
                      "title = \"b\"\n[run]\nduration = 1.0\nstep = 0.30000000000000004\nseed = 7\n");
-    const std::string table = differences_html({{"first", here / "a.toml"}, {"second", here / "b.toml"}});
+    const std::string table =
+        differences_html({{"first", here / "a.toml"}, {"second", here / "b.toml"}}, PageWords({}));
     EXPECT_THAT(
         table,
         HasSubstr(
@@ -38,7 +39,7 @@ TEST(Differences, OnlyWhatDiffersIsInTheTable) {
     EXPECT_THAT(table, HasSubstr("SI units"));
     EXPECT_THAT(table, Not(HasSubstr("run.duration")));
     EXPECT_THAT(table, Not(HasSubstr("run.step")));
-    EXPECT_THAT(differences_html({{"a", here / "a.toml"}, {"a", here / "a.toml"}}),
+    EXPECT_THAT(differences_html({{"a", here / "a.toml"}, {"a", here / "a.toml"}}, PageWords({})),
                 HasSubstr("The scenes are the same."));
 }
 
@@ -48,7 +49,8 @@ TEST(Differences, MeshesDifferByTheirHash) {
     const char* mesh = "[[mesh]]\nname = \"drum\"\nfile = \"meshes/drum.stl\"\nhash = \"{}\"\n";
     test::write_text(here / "a.toml", fmt::format(fmt::runtime(mesh), "0123456789abcdef"));
     test::write_text(here / "b.toml", fmt::format(fmt::runtime(mesh), "fedcba9876543210"));
-    const std::string table = differences_html({{"first", here / "a.toml"}, {"second", here / "b.toml"}});
+    const std::string table =
+        differences_html({{"first", here / "a.toml"}, {"second", here / "b.toml"}}, PageWords({}));
     EXPECT_THAT(table, HasSubstr("<th scope=\"row\">mesh.1.hash</th><td>&quot;0123456789abcdef&quot;</td>"));
     EXPECT_THAT(table, Not(HasSubstr("mesh.1.file")));
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
@@ -211,6 +212,12 @@ void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
         else
             wall_files_.push_back(wall->files);
     }
+    if (wall_files_.empty()) return;
+    std::vector<std::string> names;
+    for (const FileGroup* wall : walls)
+        if (!moving || wall->files.size() > 1) names.push_back(fs::path(wall->pattern).filename().string());
+    news_.push_back(fmt::format("{}: walls are taken from {}; --walls names others", path_.string(),
+                                fmt::join(names, ", ")));
 }
 
 // Adds contacts and walls of MercuryDPM, which writes NAME.data, NAME.fstat and NAME.restart.

@@ -229,6 +229,17 @@ bool ForeignArchive::walls_come() const {
                                       [](const auto& files) { return files.size() > 1; });
 }
 
+namespace {
+
+// The name of a series of files without its number: "walls" of walls_2000.vtk.
+std::string name_of_series(const std::filesystem::path& file) {
+    const std::string stem = file.stem().string();
+    const std::size_t end = stem.find_last_not_of("0123456789._- ");
+    return end == std::string::npos ? stem : stem.substr(0, end + 1);
+}
+
+}  // namespace
+
 void ForeignArchive::read_walls() {
     const double unit = options_.walls_scale.value_or(meaning_->units().length);
     walls_.clear();
@@ -249,6 +260,9 @@ void ForeignArchive::read_walls() {
             moments.push_back({frame.step, frame.time, std::move(frame.walls)});
         }
         std::vector<MovingWall> more = follow_walls(moments, unit, files.front().string(), news_);
+        for (MovingWall& wall : more)
+            if (wall.name.empty() || wall.name == files.front().stem())
+                wall.name = name_of_series(files.front());
         if (moments.size() > wall_moments_.size()) wall_moments_ = std::move(moments);
         std::move(more.begin(), more.end(), std::back_inserter(walls_));
     }

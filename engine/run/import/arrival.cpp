@@ -54,7 +54,7 @@ Arrival::Arrival(const std::filesystem::path& folder, const Scene& scene, Arriva
       motion_(scene.drive, facts_.clock),
       bodies_(bodies_of(scene)),
       trajectory_(folder / "trajectory.nc", facts_.header),
-      measures_(scene, facts_.clock, facts_.supply),
+      measures_(scene, facts_.clock, facts_.supply, facts_.weighed),
       names_(joined(measures_.names(), facts_.more_columns)),
       table_(folder / "measures.csv", *names_),
       ranges_(scene, facts_.supply) {

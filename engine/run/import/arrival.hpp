@@ -27,6 +27,7 @@ struct ArrivalFacts {
     StateSupply supply{};  // what the frames have
     Clock clock{};
     bool in_container = false;  // places and velocities of the frames are against the moving container
+    bool weighed = false;       // whether masses are known, so that kinetic energies are measured
     bool ranges = false;        // whether close() writes ranges.csv
     // Columns of measures.csv whose values take() gets.
     std::vector<std::string> more_columns{};

@@ -11,6 +11,7 @@
 #include "engine/files/foreign/names.hpp"
 #include "engine/measure/bed/bed_observers.hpp"
 #include "engine/measure/drive_observers.hpp"
+#include "engine/measure/energy.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/measure/segregation/segregation_observers.hpp"
@@ -24,9 +25,29 @@ namespace grainreel {
 
 namespace {
 
-// The observers that only need a state made from a frame. Energies are left out, because stiffness and mass
-// of another program's contacts are not known.
-std::vector<ObserverEntry> entries(const StateSupply& supply) {
+class KineticEnergy final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {{{{"kinetic_J", "kinetic energy", Dimension::energy}}, "J", "of all grains: translation"}};
+    }
+    void look(const ObservedState& m, std::vector<double>& row) override {
+        row.push_back(kinetic_energy(m.grains).translation);
+    }
+};
+
+class EnergyOfSpins final : public Observer {
+  public:
+    static std::vector<ColumnGroup> columns(const Scene&) {
+        return {{{{"rotational_J", "energy of rotation", Dimension::energy}}, "J", "of all grains: spin"}};
+    }
+    void look(const ObservedState& m, std::vector<double>& row) override {
+        row.push_back(kinetic_energy(m.grains).rotation);
+    }
+};
+
+// The observers that only need a state made from a frame. Elastic energy and all that follows from it are
+// left out, because the stiffness of another program's contacts is not known.
+std::vector<ObserverEntry> entries(const StateSupply& supply, bool weighed) {
     std::vector<ObserverEntry> all{
         entry_of<observers::Times>(),         entry_of<observers::CentreOfMass>(),
         entry_of<observers::SpeciesPlaces>(), entry_of<observers::HeightDifference>(),
@@ -36,6 +57,8 @@ std::vector<ObserverEntry> entries(const StateSupply& supply) {
         all.push_back(entry_of<observers::ContactNumber>());
         all.push_back(entry_of<observers::ContactFabric>());
     }
+    if (weighed && supply.velocities) all.push_back(entry_of<KineticEnergy>());
+    if (weighed && supply.spins) all.push_back(entry_of<EnergyOfSpins>());
     all.push_back(entry_of<observers::FloorPosition>());
     return all;
 }
@@ -97,11 +120,11 @@ Grains grains_of(const State& frame, const Scene& scene) {
 }
 
 struct ImportMeasures::Impl {
-    Impl(const Scene& scene_in, const Clock& clock_in, const StateSupply& supply)
+    Impl(const Scene& scene_in, const Clock& clock_in, const StateSupply& supply, bool weighed)
         : scene(scene_in),
           clock(clock_in),
           plan(make_plan(as_layers(scene))),
-          observers(entries(supply), scene, plan),
+          observers(entries(supply, weighed), scene, plan),
           faces(faces_of(scene)) {}
 
     const Scene scene;
@@ -112,8 +135,9 @@ struct ImportMeasures::Impl {
     const Traffic traffic{};
 };
 
-ImportMeasures::ImportMeasures(const Scene& scene, const Clock& clock, const StateSupply& supply)
-    : impl_(std::make_unique<Impl>(scene, clock, supply)) {}
+ImportMeasures::ImportMeasures(const Scene& scene, const Clock& clock, const StateSupply& supply,
+                               bool weighed)
+    : impl_(std::make_unique<Impl>(scene, clock, supply, weighed)) {}
 
 ImportMeasures::~ImportMeasures() = default;
 

@@ -24,7 +24,8 @@ Grains grains_of(const State& frame, const Scene& scene);
 // Runs those observers that need only places, velocities or contacts.
 class ImportMeasures {
   public:
-    ImportMeasures(const Scene& scene, const Clock& clock, const StateSupply& supply);
+    // weighed: whether masses are known, so that kinetic energies are measured where velocities are there.
+    ImportMeasures(const Scene& scene, const Clock& clock, const StateSupply& supply, bool weighed);
     ~ImportMeasures();
 
     const std::vector<std::string>& names() const;

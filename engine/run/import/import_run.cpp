@@ -1,6 +1,7 @@
 #include "engine/run/import/import_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "engine/files/frames/stored_world.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/mesh/surface.hpp"
 #include "engine/run/import/arrival.hpp"
 #include "engine/run/import/import_measures.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -82,6 +84,10 @@ ArrivalFacts arrival_facts(const Scene& scene, const ForeignArchive& archive, co
     ArrivalFacts facts;
     facts.supply = archive.supply();
     facts.supply.masses = survey.masses;
+    const auto& species = archive.world().species;
+    facts.weighed = survey.masses || std::all_of(species.begin(), species.end(), [](const WorldSpecies& one) {
+                        return std::isfinite(one.density) && one.density > 0;
+                    });
     facts.header = trajectory_info(world, facts.supply);
     facts.clock = clock_of(scene, archive.moments());
     facts.in_container = request.reading.moves_with_container && scene.drive.moves == Drive::Moves::container;
@@ -95,6 +101,8 @@ ArrivalFacts arrival_facts(const Scene& scene, const ForeignArchive& archive, co
 struct Import::Files {
     Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,
           std::vector<std::string>& news);
+    void doubt_walls(const ImportRequest& request, const ForeignArchive& archive,
+                     std::vector<std::string>& news) const;
 
     const ImportWalls walls;
     const std::string scene_text;
@@ -108,6 +116,27 @@ struct Import::Files {
     const std::size_t bodies, places;
 };
 
+// Tells of walls that are so large beside the grains that their file may be in another unit, as meshes of
+// ours are told of.
+void Import::Files::doubt_walls(const ImportRequest& request, const ForeignArchive& archive,
+                                std::vector<std::string>& news) const {
+    constexpr double too_large = 3000;  // diameters of the largest grain
+    double largest = 0;
+    for (const Species& one : scene.species) largest = std::max(largest, one.diameter.largest);
+    const std::size_t first = scene.meshes.size() - archive.walls().size();
+    for (std::size_t m = first; m < scene.meshes.size() && !archive.walls()[m - first].is_box; ++m) {
+        const MeshFacts& facts = scene.meshes[m].surface->facts();
+        const double size = (facts.high - facts.low).maxCoeff();
+        if (!(largest > 0) || size <= too_large * largest) continue;
+        news.push_back(fmt::format(
+            "{}: the wall \"{}\" is {:.4g} m large, beside grains of {:.4g} m; where its file is in mm, give "
+            "--walls-scale {:g}",
+            request.from.string(), scene.meshes[m].name, size, largest,
+            0.001 * request.reading.walls_scale.value_or(archive.units().length)));
+        return;  // walls are in one unit
+    }
+}
+
 Import::Files::Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,
                      std::vector<std::string>& news)
     : walls(write_import_walls(request.folder, archive, request.reading, news)),
@@ -119,6 +148,7 @@ Import::Files::Files(const ImportRequest& request, const ForeignArchive& archive
       supply(archive.supply()),
       bodies(archive.world().bodies.size()),
       places(survey.places) {
+    doubt_walls(request, archive, news);
     if (!ImportWear::known(archive)) return;
     wear.emplace(request.folder / "fields.nc", scene, archive, request.program_version);
     for (std::string& line : wear->news()) news.push_back(std::move(line));
@@ -239,8 +269,8 @@ void Import::finish(const ImportSurvey& survey) {
     const std::string text = import_scene_text(archive_, survey, request_.reading, files_->walls, said);
     if (text != files_->scene_text) {
         const Scene scene = written_and_read(text, request_);
-        ImportMeasures(scene, clock_of(scene, archive_.moments()),
-                       archive_.supply());  // refuses what cannot be
+        // Refuses what cannot be.
+        ImportMeasures(scene, clock_of(scene, archive_.moments()), archive_.supply(), false);
     }
     tell_of_contacts();
     tell_of_box();

@@ -133,7 +133,7 @@ class Desk {
     }
 
     void tell(const StillPainter::Drawn& drawn) const {
-        const Picture& picture = drawn.picture;
+        const Picture& picture = *drawn.picture;
         const Json head = {{"width", picture.width},
                            {"height", picture.height},
                            {"transparent", painter_->scene().film.transparent},

@@ -57,7 +57,7 @@ void check_folder_name(const std::filesystem::path& out) {
     std::error_code ignored;
     if (std::filesystem::is_directory(out, ignored)) return;
     const std::string end = out.extension().string();
-    for (const char* one : {".png", ".mp4", ".webm", ".mkv", ".gif", ".y4m"})
+    for (const char* one : {".png", ".mp4", ".webm", ".mkv", ".gif", ".y4m", ".pdf"})
         if (end == one)
             throw UserError(
                 fmt::format("--out {}: names the folder, in which the files are made; give a name without {}",
@@ -75,19 +75,24 @@ void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, c
 void add_print_size(CLI::App& verb, PrintSize& print) {
     constexpr double most = 1e5;
     verb.add_option("--dpi", print.dpi,
-                    "With --at: pixels an inch, stored in the PNG for print [300 with --width-mm]")
+                    "With --at: pixels an inch, stored in the file for print [300 with --width-mm or --pdf]")
         ->check(number_within(1, most))
         ->type_name("N");
     verb.add_option("--width-mm", print.width_mm,
                     "With --at: width on paper; the picture gets the pixels that this needs")
         ->check(number_within(1, most))
         ->type_name("MM");
+    verb.add_flag("--pdf", print.pdf,
+                  "With --at: make a PDF, with the picture at --dpi and its words as text");
 }
 
 void check_print_size(const PrintSize& print, bool one_picture, const char* moment) {
     if (!one_picture && print.wanted())
-        throw UserError(
-            fmt::format("{}: is for one picture; add {}", print.dpi ? "--dpi" : "--width-mm", moment));
+        throw UserError(fmt::format("{}: is for one picture; add {}",
+                                    print.pdf   ? "--pdf"
+                                    : print.dpi ? "--dpi"
+                                                : "--width-mm",
+                                    moment));
 }
 
 void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {

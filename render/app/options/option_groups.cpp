@@ -266,6 +266,7 @@ void add_picture_keys(CLI::App& verb, Assignments& sets) {
     add_key(verb, sets, "--size", "film.size", "WxH",
             "Size of the film in pixels [the scene's, or 1920x1080]");
     add_key(verb, sets, "--fps", "film.rate", "N", "Frames a second of film [the scene's, or 30]");
+    add_key(verb, sets, "--length", "film.length", "TIME", "Length of the film, as in 30s [the scene's]");
     add_key(verb, sets, "--title", "film.title", "TEXT", about_title);
     add_key(verb, sets, "--threads", "run.threads", "N", about_threads);
 }

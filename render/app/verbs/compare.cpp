@@ -8,6 +8,7 @@
 #include "render/app/messages/version.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"
+#include "render/app/verbs/report.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/film/compare/compare_job.hpp"
 
@@ -36,8 +37,8 @@ class Compare final : public Verb {
             ->type_name("FILE|DIR");
         add_vary(parser);
         add_captions(parser);
-        CLI::Option* at =
-            add_time(parser, "--at", request_.at, "Draw only this moment, to a PNG file in the folder");
+        CLI::Option* at = add_time(parser, "--at", request_.at,
+                                   "Draw only this moment, to a PNG or PDF file in the folder");
         add_print_size(parser, request_.print);
         add_no_replay(parser, request_.replay);
         add_reading(parser, reading_);
@@ -45,6 +46,7 @@ class Compare final : public Verb {
         add_camera_file(parser, camera_, CameraOptions::use);  // each panel has its own, so none is kept
         add_film(parser, film_,
                  "Folder of the film, which has a folder for each run [output/ and the scenes' names]");
+        parser.add_flag("--no-report", no_page_, "Leave out report.html, the page of all runs");
         add_no_cache(parser, film_.keep_packings)->each([this](const std::string&) { no_cache_ = true; });
         for (const char* option : {"--part", "--parts"})
             parser
@@ -78,6 +80,7 @@ class Compare final : public Verb {
             throw UserError(option + ": is for files of other programs, and none is compared");
         check_used();
         use_camera_file(camera_, request_.sets);
+        if (!no_page_ && !request_.at && !film_.to_stdout) film_.page = page_of_comparison();
         if (request_.at) request_.sets = sets_for_still(std::move(request_.sets));
         CompareJob comparison(film_, reporter, read_comparison(request_, film_));
         return tell_folder(comparison.run(), film_);
@@ -122,7 +125,7 @@ class Compare final : public Verb {
     }
 
     CompareRequest request_;
-    bool no_cache_ = false;
+    bool no_cache_ = false, no_page_ = false;
     CameraFiles camera_;
     ReadingOptions reading_;
     FilmRequest film_;

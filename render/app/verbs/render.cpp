@@ -68,7 +68,8 @@ class Render final : public Verb {
                             "Draw every Nth frame of the trajectory, in place of the film's pictures")
                 ->check(CLI::Range(1, 1000000000))
                 ->type_name("N");
-        CLI::Option* at = add_time(parser, "--at", request_.at, "Draw only this moment, to a PNG file");
+        CLI::Option* at =
+            add_time(parser, "--at", request_.at, "Draw only this moment, to a PNG or PDF file");
         CLI::Option* frame = parser
                                  .add_option("--frame", request_.frame,
                                              "Draw only this frame, counted from 0, of the film or of the "
@@ -108,16 +109,17 @@ class Render final : public Verb {
         add_parts(parser, request_.parts, slurm_);
         for (const char* other : {"--part", "--parts", "--slurm"})
             for (CLI::Option* one : {follow, at, frame, cycle}) one->excludes(parser.get_option(other));
-        add_film(
-            parser, film_,
-            "Folder of the film [beside RUN, its name with -render]; with --at, the PNG file [beside RUN]");
+        add_film(parser, film_,
+                 "Folder of the film [beside RUN, its name with -render]; with --at, the PNG or PDF file "
+                 "[beside RUN]");
         for (CLI::Option* other :
              {from, to, every, parser.get_option("--frames"), parser.get_option("--no-film")})
             for (CLI::Option* one : {at, frame, cycle}) one->excludes(other);
-        for (CLI::Option* other : {at, frame, cycle, from, to, every, follow, parser.get_option("--part"),
-                                   parser.get_option("--parts"), parser.get_option("--slurm"),
-                                   parser.get_option("--out"), parser.get_option("--frames"),
-                                   parser.get_option("--no-film"), parser.get_option("--keep-camera")})
+        for (CLI::Option* other :
+             {at, frame, cycle, from, to, every, follow, parser.get_option("--part"),
+              parser.get_option("--parts"), parser.get_option("--slurm"), parser.get_option("--out"),
+              parser.get_option("--pdf"), parser.get_option("--frames"), parser.get_option("--no-film"),
+              parser.get_option("--keep-camera")})
             asked->excludes(other);
         add_reporting(parser, report);
     }

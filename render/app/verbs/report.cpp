@@ -6,26 +6,32 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/own_folder.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/saved_scene.hpp"
+#include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/resume/kept_files.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/app/messages/reporter.hpp"
+#include "render/app/messages/version.hpp"
 #include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/app/options/run_to_read.hpp"
 #include "render/app/print/run_charts.hpp"
 #include "render/app/verbs/verbs.hpp"
+#include "render/film/run/redraw_job.hpp"
 #include "render/film/sources/recorded_scene.hpp"
+#include "render/film/sources/stored_shots.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -57,7 +63,7 @@ std::optional<PlannedScene> planned_scene(const FilmedScene& scene) {
 }
 
 std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const fs::path& out, Damage damage,
-                                       const PageProgress& progress) {
+                                       const PageProgress& progress, const PageFilms& films) {
     std::vector<PageRun> all;
     for (const fs::path& run : runs) {
         PageRun& one = all.emplace_back();
@@ -71,8 +77,27 @@ std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const 
             one.scene = scene_of_run(one.folder, {});
         }
         one.planned = planned_scene(one.scene);
+        if (all.size() <= films.of_runs.size()) one.film_folder = films.of_runs[all.size() - 1];
     }
-    return write_report(all, out.empty() ? all.front().folder / kPageName : out, progress);
+    return write_report(all, out.empty() ? all.front().folder / kPageName : out, progress, films.of_all);
+}
+
+std::vector<fs::path> runs_of_comparison(const fs::path& folder) {
+    std::error_code ignored;
+    std::vector<fs::path> runs;
+    if (!fs::is_regular_file(folder / "run.json", ignored) || is_there(folder / "scene.toml")) return runs;
+    for (const std::string& panel : read_run_json(folder / "run.json").record.panels)
+        runs.push_back(folder / panel);  // a path from the root stays as it is
+    return runs;
+}
+
+PageMaker page_of_comparison() {
+    return [](const fs::path& folder,
+              const std::function<bool(double)>& go_on) -> std::optional<std::string> {
+        if (!make_page_of(runs_of_comparison(folder), folder / kPageName, Damage::none, go_on, {folder, {}}))
+            return std::nullopt;
+        return kPageName;
+    };
 }
 
 PageMaker page_of_ended_run() {
@@ -84,6 +109,19 @@ PageMaker page_of_ended_run() {
 }
 
 namespace {
+
+// Passes on how far the film of a page is, and what the user should see of it.
+class OnlyProgress final : public SilentListener {
+  public:
+    explicit OnlyProgress(Reporter& reporter) : reporter_(reporter) {}
+    void warning(const std::string& text) override { reporter_.warning(text); }
+    void progress(const Progress& progress) override { reporter_.progress(progress); }
+    int stop_signal() const override { return reporter_.stop_signal(); }
+    bool in_a_hurry() const override { return reporter_.in_a_hurry(); }
+
+  private:
+    Reporter& reporter_;
+};
 
 class Report final : public Verb {
   public:
@@ -120,28 +158,34 @@ class Report final : public Verb {
             ->delimiter(',')
             ->needs(charts)
             ->type_name("NAME,...");
+        parser.add_flag("--no-film", no_film_, "Draw no film of files of another program");
         add_reading(parser, reading_);
         add_reporting(parser, report);
     }
 
     int run(Reporter& reporter) override {
+        take_comparison();
         if (runs_.size() > most_runs)
             throw UserError(fmt::format("report: {} runs do not fit side by side; give {} at most",
                                         runs_.size(), most_runs));
         check_paper(paper_);
         if (!out_.empty()) check_out(out_);
         if (runs_.size() > 1 && out_.empty()) out_ = "side_by_side.html";
+        std::vector<bool> imported;
         for (fs::path& run : runs_) {
             const RunToRead read = run_to_read(run, reading_, reporter);
+            imported.push_back(read.imported);
             if (read.imported && out_.empty())
                 out_ = read.beside / (read.folder.filename().string() + "-report.html");
             run = read.folder;
         }
         if (paper_.folder) return draw_charts(reporter);
         if (!out_.empty()) check_out(out_);
+        const std::unique_ptr<ScratchFolder> scratch = draw_films(imported, reporter);
+        if (reporter.stop_signal() != 0) return signal_base + reporter.stop_signal();
         const ShareWatcher watcher(reporter, Progress::Stage::paging);
-        const ReportMade made = *make_page_of(runs_, out_, Damage::looked_for,
-                                              [&](double done) { return watcher("", done), true; });
+        const ReportMade made = *make_page_of(
+            runs_, out_, Damage::looked_for, [&](double done) { return watcher("", done), true; }, films_);
         for (const std::string& line : made.news) reporter.warning(line);
         reporter.info(fmt::format("wrote {} ({}); open it in a browser", made.file.string(),
                                   data_size_text(static_cast<double>(made.bytes))));
@@ -152,6 +196,44 @@ class Report final : public Verb {
     bool ends_in_good_order() const override { return false; }
 
   private:
+    // A folder of `compare` stands for the runs that it shows, and has their page.
+    void take_comparison() {
+        if (runs_.size() != 1) return;
+        const fs::path folder = runs_.front();
+        std::vector<fs::path> shown = runs_of_comparison(folder);
+        if (shown.empty()) return;
+        for (const fs::path& run : shown)
+            if (!is_there(run / "scene.toml"))
+                throw UserError(fmt::format("{}: shows the run {}, which is no longer there", folder.string(),
+                                            run.string()));
+        runs_ = std::move(shown);
+        films_.of_all = folder;
+        if (out_.empty() && !paper_.folder) out_ = folder / kPageName;
+    }
+
+    // Runs of other programs have no film, so one is drawn for the page. It is gone with the folder that is
+    // returned.
+    std::unique_ptr<ScratchFolder> draw_films(const std::vector<bool>& imported, Reporter& reporter) {
+        std::unique_ptr<ScratchFolder> scratch;
+        films_.of_runs.resize(runs_.size());
+        for (std::size_t k = 0; k < runs_.size() && !no_film_ && reporter.stop_signal() == 0; ++k) {
+            if (!imported[k]) continue;
+            if (!scratch) scratch = std::make_unique<ScratchFolder>("film-of-page");
+            FilmRequest request;
+            request.command = command;
+            request.program = program_info();
+            request.out = scratch->path() / std::to_string(k);
+            RenderRequest what;
+            what.run = runs_[k];
+            what.every = 1;
+            OnlyProgress listener(reporter);
+            StoredShots source(what.run, {}, what.replay);
+            if (RedrawJob(request, what, listener, source).run().exit_status == 0)
+                films_.of_runs[k] = *request.out;
+        }
+        return scratch;
+    }
+
     int draw_charts(Reporter& reporter) const {
         const std::vector<fs::path> files = draw_run_charts(runs_, measures_, paper_.paper, *paper_.folder);
         reporter.info(fmt::format("wrote {} of charts, {:g} mm wide", counted(files.size(), "file"),
@@ -194,6 +276,8 @@ class Report final : public Verb {
     ReadingOptions reading_;
     fs::path out_;
     PaperOptions paper_;
+    PageFilms films_;
+    bool no_film_ = false;
     std::vector<std::string> measures_;
 };
 

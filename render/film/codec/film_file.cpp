@@ -59,6 +59,16 @@ std::int64_t pictures_in(const std::filesystem::path& film) {
     return count;
 }
 
+double frame_rate_of(const std::filesystem::path& film) {
+    InputPtr file;
+    if (const int code = open_film(film, file); code < 0)
+        throw RunError(fmt::format("{}: cannot be read back: {}", film.string(), ffmpeg_error(code)));
+    if (file->nb_streams == 0) return 0;
+    const AVStream& stream = *file->streams[0];
+    const AVRational rate = stream.avg_frame_rate.den > 0 ? stream.avg_frame_rate : stream.r_frame_rate;
+    return rate.den > 0 ? static_cast<double>(rate.num) / rate.den : 0;
+}
+
 void FilmReader::check(int code) const {
     if (code < 0)
         throw RunError(fmt::format("{}: cannot be read back: {}", path_.string(), ffmpeg_error(code)));

@@ -35,6 +35,9 @@ class FilmReader {
 // Counts the complete pictures in a film without decoding them. Throws RunError when the file is no film.
 std::int64_t pictures_in(const std::filesystem::path& film);
 
+// Frames a second as the film's file says; 0 where it does not. Throws RunError when the file is no film.
+double frame_rate_of(const std::filesystem::path& film);
+
 // Copies the film's packets to `path`.part, syncs it and renames it to `path`. When that fails, throws
 // RunError with the file and the reason, and leaves the film as it was written.
 void remux_for_streaming(const std::filesystem::path& path, const FilmContainer& container);

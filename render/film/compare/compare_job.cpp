@@ -6,9 +6,11 @@
 #include <atomic>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/run/still.hpp"
+#include "render/picture/base/pdf_page.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/panels/side_by_side.hpp"
 
@@ -78,10 +80,16 @@ bool CompareJob::draw_still(Shots& frames) {
     if (const std::string note = drawer.gl_note(); !note.empty()) desk_.listener.info(note);
     desk_.record.gl = drawer.gl_description();
     const auto segment = static_cast<std::size_t>(moment.segment);
+    const State& state = *frames[all_.reference];
+    still_ = fmt::format("still-{}s.{}", seconds_in_names(moment.time), all_.pdf ? "pdf" : "png");
+    if (all_.pdf) {
+        PdfPage page(all_.film.film.width, all_.film.film.height, all_.dots_an_inch);
+        drawer.draw_page(page, frames, segment, all_.reference, *all_.still);
+        replace_file(folder() / still_, page.finish(title_of_still(all_.film, state)));
+        return true;
+    }
     const Picture& picture = drawer.draw(frames, segment, all_.reference, *all_.still);
-    still_ = fmt::format("still-{}s.png", seconds_in_names(moment.time));
-    write_png(folder() / still_, picture,
-              texts_of(all_.film.name, all_.film.title, *frames[all_.reference], ""),
+    write_png(folder() / still_, picture, texts_of(all_.film.name, all_.film.title, state, ""),
               all_.film.film.transparent, all_.dots_an_inch);
     return true;
 }
@@ -97,6 +105,7 @@ bool CompareJob::draw_film(Shots& frames) {
     for (const std::size_t segment : segment_of) {
         if (!next(frames)) return false;
         const auto timer = desk_.times.during("waiting for the film");
+        film_.note(*frames[all_.reference]);
         film_.maker().take(frames, playback_of_all(all_.panels, segment));
     }
     return true;
@@ -157,6 +166,7 @@ void CompareJob::keep_state() {
 void CompareJob::side_work_closed() {
     const auto watcher = [&](const std::string& format, double done) { return tell_export(format, done); };
     for (const auto& member : all_.members) member->write_other_formats(watcher);
+    film_.write_times();
 }
 
 void CompareJob::conclude() {
@@ -179,9 +189,9 @@ void CompareJob::report_written() {
     }
     const std::string runs =
         folders.empty() ? "" : fmt::format("{} (each a run), ", fmt::join(folders, ", "));
-    desk_.listener.info(fmt::format("wrote {}: {}{}run.json, log.txt", folder().string(),
-                                    all_.still && !still_.empty() ? still_ + ", " : film_.files_text(),
-                                    runs));
+    desk_.listener.info(fmt::format("wrote {}: {}{}run.json, log.txt{}", folder().string(),
+                                    all_.still && !still_.empty() ? still_ + ", " : film_.files_text(), runs,
+                                    page_text()));
     desk_.listener.info(fmt::format("took {}: {} panels, from {:.6g} to {:.6g} s",
                                     duration_text(desk_.watch.seconds()), all_.members.size(),
                                     all_.pictures.instants.front().time, all_.pictures.instants.back().time));

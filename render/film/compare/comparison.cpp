@@ -38,20 +38,30 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-// If a key of a scene is varied, drops the scene's captions: they were written for the value in the scene
-// file. Captions of the command line hold for all panels and stay.
+// Whether a caption holds for any value of a key: it asks, or it tells the run's own numbers.
+bool holds_for_all(const FilmCaption& caption) {
+    return trimmed(caption.text, " \n").ends_with('?') || has_values(caption.words);
+}
+
+// If a key of a scene is varied, drops the scene's captions that state something: they were written for the
+// value in the scene file. Captions of the command line hold for all panels and stay.
 void leave_out_captions(const CompareRequest& what, Comparison& all) {
     if (!what.vary) return;
     const std::vector<Assignment> values = read_vary(*what.vary);
     const bool given = std::any_of(what.sets.begin(), what.sets.end(), [](const Assignment& set) {
         return set.key().rfind("film.caption", 0) == 0;
     });
-    if (given || !changes_the_scene(values.front()) || all.film.film.captions.empty()) return;
-    all.film.film.captions.clear();
-    for (Panel& panel : all.panels) panel.scene.film.captions.clear();
+    if (given || !changes_the_scene(values.front())) return;
+    const auto leave_out = [](FilmedScene& scene) {
+        return std::erase_if(scene.film.captions,
+                             [](const FilmCaption& caption) { return !holds_for_all(caption); });
+    };
+    if (leave_out(all.film) == 0) return;
+    for (Panel& panel : all.panels) leave_out(panel.scene);
     all.warnings.push_back(
-        fmt::format("film.caption: the scene's captions were written for one value of {} and are left out; "
-                    "--set film.caption=[...] gives the comparison its own",
+        fmt::format("film.caption: captions that state something were written for one value of {} and are "
+                    "left out, those that ask or tell the run's numbers stay; --set film.caption=[...] gives "
+                    "the comparison its own",
                     values.front().key()));
 }
 
@@ -126,6 +136,7 @@ Comparison read_comparison(const CompareRequest& what, const FilmRequest& film) 
     all.film = whole(scenes_of(all));
     fit_to_paper(all.film.film, what.print);
     all.dots_an_inch = dots_an_inch(what.print);
+    all.pdf = what.print.pdf;
     choose_moments(what, all);
     make_panels(what, all);
     return all;

@@ -26,6 +26,7 @@ struct Comparison {
     std::vector<std::string> labels;
     // If one picture is drawn instead of a film: its time in s of film.
     std::optional<double> still;
+    bool pdf = false;                // that picture is a PDF
     double dots_an_inch = 0;         // resolution of that picture for print; 0: it has no size on paper
     std::int64_t film_pictures = 0;  // number of pictures of the film, also if only one is drawn
     ThreadPlan threads;

@@ -68,7 +68,7 @@ void FolderFilm::open(const FilmedScene& scene, std::int64_t pictures, StatePtr 
 void FolderFilm::show(const Taken& picture, const FilmSegment& rule, const Clock& clock) {
     const auto timer = desk_.times.during("waiting for the film");
     film_->take(picture.frame, pace_caption(rule, picture.periods, drive_, rate_, clock, wording_));
-    times_.add(*picture.frame, 1 + holds_->begin_at(picture.frame->time));
+    note(*picture.frame);
 }
 
 void FolderFilm::write_times() const {

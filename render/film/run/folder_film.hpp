@@ -55,6 +55,8 @@ class FolderFilm final : public SideWork {
     // Gives the film its next picture, with a caption about how fast it plays, and notes it for
     // film_times.csv. rule: the segment by which it was taken.
     void show(const Taken& picture, const FilmSegment& rule, const Clock& clock);
+    // Notes for film_times.csv the moment of a picture that the caller gives to maker().
+    void note(const State& shown) { times_.add(shown, 1 + holds_->begin_at(shown.time)); }
     // Writes film_times.csv, if there is a film in the folder. To be called once the film is closed.
     void write_times() const;
     // Shows the progress of a run that only draws.

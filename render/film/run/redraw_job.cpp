@@ -230,6 +230,7 @@ bool RedrawJob::work() {
             continue;
         }
         const std::string caption = caption_of(*picture);
+        film_.note(*picture->frame);
         film_.maker().take(std::move(picture->frame), caption);
         film_.show_progress();
     }
@@ -244,6 +245,7 @@ void RedrawJob::identify_part() {
 
 // Adds the checksum of a part whose film is complete.
 void RedrawJob::side_work_closed() {
+    if (!desk_.record.part) film_.write_times();
     if (!desk_.record.part || !film_.made() || !film_.result().complete || film_.result().file.empty())
         return;
     desk_.record.part->checksum = checksum_of_file(folder() / film_.result().file);

@@ -7,12 +7,14 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/questions/asked_moment.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/run/folder/listener.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sources/film_request.hpp"
+#include "render/picture/base/pdf_page.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -22,24 +24,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A free name beside the run: "wedge-1.250s.png", with a number when that is taken.
-fs::path free_name(const FilmedScene& scene, const fs::path& beside, double time) {
+// A free name beside the run: "wedge-1.250s.png" or ".pdf", with a number when that is taken.
+fs::path free_name(const FilmedScene& scene, const fs::path& beside, double time, const char* ending) {
     const std::string stem = fmt::format("{}-{}s", scene.name, seconds_in_names(time));
-    fs::path path = beside / (stem + ".png");
-    for (int number = 2; fs::exists(path); ++number) path = beside / fmt::format("{}-{}.png", stem, number);
+    fs::path path = beside / (stem + ending);
+    for (int number = 2; fs::exists(path); ++number)
+        path = beside / fmt::format("{}-{}{}", stem, number, ending);
     return path;
 }
 
-void check_png(const fs::path& path, bool force) {
+void check_picture(const fs::path& path, bool pdf, bool force) {
     std::error_code error;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, error))
         throw UserError(
             fmt::format("--out {}: there is no folder {}; make it first", path.string(), folder.string()));
     if (fs::is_directory(path, error))
-        throw UserError(fmt::format("--out {}: is a folder; with --at, name a PNG file", path.string()));
-    if (path.extension() != ".png")
-        throw UserError(fmt::format("--out {}: with --at, name a file that ends in .png", path.string()));
+        throw UserError(
+            fmt::format("--out {}: is a folder; with --at, name a PNG or PDF file", path.string()));
+    if (path.extension() != ".png" && path.extension() != ".pdf")
+        throw UserError(
+            fmt::format("--out {}: with --at, name a file that ends in .png or .pdf", path.string()));
+    if (pdf && path.extension() == ".png")
+        throw UserError(fmt::format("--out {}: with --pdf, name a file that ends in .pdf", path.string()));
     if (fs::exists(path, error) && !force)
         throw UserError(fmt::format("--out {}: exists already; choose another name, or --force to replace it",
                                     path.string()));
@@ -135,6 +142,11 @@ ShotPtr with_own_values(const Shot& frame, const OwnColours& own) {
 
 }  // namespace
 
+std::string title_of_still(const FilmedScene& scene, const State& frame) {
+    const std::string& title = scene.film.title.empty() ? scene.name : scene.film.title;
+    return fmt::format("{}, {:.6g} s", title, frame.time);
+}
+
 std::string seconds_in_names(double time) {
     int digits = 3;
     for (double shown = time * 1e3; digits < 6 && std::abs(shown - std::round(shown)) > 1e-4; shown *= 10)
@@ -144,9 +156,9 @@ std::string seconds_in_names(double time) {
 
 void check_still(const FilmRequest& request, const RenderRequest& what) {
     if (request.to_stdout)
-        throw UserError(
-            fmt::format("--out -: with {}, name a file that ends in .png", what.frame ? "--frame" : "--at"));
-    if (request.out) check_png(*request.out, request.force);
+        throw UserError(fmt::format("--out -: with {}, name a file that ends in .png or .pdf",
+                                    what.frame ? "--frame" : "--at"));
+    if (request.out) check_picture(*request.out, what.print.pdf, request.force);
 }
 
 StillPainter::StillPainter(StoredShots& source, const FilmRequest& request, const PrintSize& print,
@@ -178,7 +190,8 @@ bool StillPainter::prepare(std::int64_t step, const OwnColours* own, const ShotS
     return false;
 }
 
-std::optional<StillPainter::Drawn> StillPainter::draw(const RenderRequest& what, const OwnColours* own) {
+std::optional<StillPainter::Drawn> StillPainter::draw(const RenderRequest& what, const OwnColours* own,
+                                                      PdfPage* page) {
     const Chosen chosen = choose(what, source_);
     tell_once(source_.news());
     if (chosen.instead) listener_.warning(*chosen.instead);
@@ -193,7 +206,11 @@ std::optional<StillPainter::Drawn> StillPainter::draw(const RenderRequest& what,
     const std::optional<Taken> taken = source_.next(go_on);
     if (!taken) return std::nullopt;
     const ShotPtr frame = own ? with_own_values(*taken->frame, *own) : taken->frame;
-    const Picture& picture = renderer_->draw(*frame, "", place.time);
+    const Picture* picture = nullptr;
+    if (page)
+        renderer_->draw_page(*page, *frame, "", place.time);
+    else
+        picture = &renderer_->draw(*frame, "", place.time);
     if (const std::string note = renderer_->last_note(); !note.empty()) listener_.info(note);
     return Drawn{picture, frame, chosen.from};
 }
@@ -201,15 +218,24 @@ std::optional<StillPainter::Drawn> StillPainter::draw(const RenderRequest& what,
 std::optional<fs::path> draw_still(const FilmRequest& request, const RenderRequest& what, Listener& listener,
                                    StoredShots& source) {
     check_still(request, what);
-    StillPainter painter(source, request, what.print, listener);
-    const std::optional<StillPainter::Drawn> drawn = painter.draw(what);
-    if (!drawn) return std::nullopt;
+    PrintSize print = what.print;
+    if (request.out && request.out->extension() == ".pdf") print.pdf = true;
+    StillPainter painter(source, request, print, listener);
     const FilmedScene& scene = painter.scene();
+    std::optional<PdfPage> page;
+    if (print.pdf) page.emplace(scene.film.width, scene.film.height, dots_an_inch(print));
+    const std::optional<StillPainter::Drawn> drawn = painter.draw(what, nullptr, page ? &*page : nullptr);
+    if (!drawn) return std::nullopt;
     const fs::path run = source.run().path();
     const fs::path beside = what.beside.empty() ? run.parent_path() : what.beside;
-    const fs::path path = request.out ? *request.out : free_name(scene, beside, drawn->frame->time);
-    write_png(path, drawn->picture, texts_of(scene.name, scene.film.title, *drawn->frame, ""),
-              scene.film.transparent, dots_an_inch(what.print));
+    const fs::path path = request.out
+                              ? *request.out
+                              : free_name(scene, beside, drawn->frame->time, print.pdf ? ".pdf" : ".png");
+    if (page)
+        replace_file(path, page->finish(title_of_still(scene, *drawn->frame)));
+    else
+        write_png(path, *drawn->picture, texts_of(scene.name, scene.film.title, *drawn->frame, ""),
+                  scene.film.transparent, dots_an_inch(print));
     listener.info(
         fmt::format("wrote {}: the run at {:.6g} s, {}", path.string(), drawn->frame->time, drawn->from));
     return path;

@@ -1,4 +1,4 @@
-// Draws moments of a finished run as single pictures, one of them as a PNG file.
+// Draws moments of a finished run as single pictures, one of them as a PNG or PDF file.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,8 @@
 
 namespace grainreel {
 
+class PdfPage;
+
 // Values of the user's own, by which the grains of one picture are coloured.
 struct OwnColours {
     GrainColouring colouring;      // by is GrainValue::own
@@ -30,14 +32,16 @@ class StillPainter {
     StillPainter(StoredShots& source, const FilmRequest& request, const PrintSize& print, Listener& listener);
 
     struct Drawn {
-        const Picture& picture;  // until the next call
+        const Picture* picture;  // until the next call; null where it was drawn on a page
         ShotPtr frame;
         std::string from;  // "frame 4 of 7 of trajectory.nc"
     };
     // Draws the moment that `what` names. When it was not kept and cannot be brought back, the nearest kept
     // moment is drawn, with a warning. Empty when the listener asked to stop. Throws UserError when the run
-    // has no such moment, and when there are not as many own values as grains.
-    std::optional<Drawn> draw(const RenderRequest& what, const OwnColours* own = nullptr);
+    // has no such moment, and when there are not as many own values as grains. page: a page of PDF on which
+    // the picture is drawn, with its words as text.
+    std::optional<Drawn> draw(const RenderRequest& what, const OwnColours* own = nullptr,
+                              PdfPage* page = nullptr);
 
     const FilmedScene& scene() const { return scene_; }
 
@@ -59,8 +63,11 @@ class StillPainter {
 std::optional<std::filesystem::path> draw_still(const FilmRequest& request, const RenderRequest& what,
                                                 Listener& listener, StoredShots& source);
 
-// Throws UserError where --out names no PNG file, or one that exists and may not be replaced.
+// Throws UserError where --out names no PNG or PDF file, or one that exists and may not be replaced.
 void check_still(const FilmRequest& request, const RenderRequest& what);
+
+// The title of a still in PDF: that of the film, and the moment.
+std::string title_of_still(const FilmedScene& scene, const State& frame);
 
 // Writes a time (s) for a file's name: "1.250", with more digits when the time needs them.
 std::string seconds_in_names(double time);

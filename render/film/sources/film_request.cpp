@@ -18,7 +18,7 @@ constexpr double usual_dpi = 300;  // what journals ask for
 }  // namespace
 
 double dots_an_inch(const PrintSize& print) {
-    return print.dpi.value_or(print.width_mm ? usual_dpi : 0);
+    return print.dpi.value_or(print.width_mm || print.pdf ? usual_dpi : 0);
 }
 
 void fit_to_paper(Film& film, const PrintSize& print) {

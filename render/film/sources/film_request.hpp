@@ -21,7 +21,8 @@ namespace grainreel {
 // The size of one picture for print.
 struct PrintSize {
     std::optional<double> dpi, width_mm;
-    bool wanted() const { return dpi || width_mm; }
+    bool pdf = false;  // a PDF in place of a PNG
+    bool wanted() const { return dpi || width_mm || pdf; }
 };
 
 // Dots an inch of the picture; 0 when it is not for print.

@@ -113,7 +113,7 @@ Json forces_json(const PairForces& forces) {
 Json film_colours_json(const FilmedScene& scene, const PageBed& bed) {
     if (!bed.has_film_colours) return {};
     const GrainColouring& colouring = scene.film.shows.colour;
-    const ColourScale scale(colouring);
+    const ColourScale scale(colouring, scene.film.wording);
     Json colours = Json::array();
     const int bands = scale.bands(), count = bands > 0 ? bands : kRampSteps;
     for (int i = 0; i < count; ++i) colours.push_back(of_colour(scale.at_share((i + 0.5) / count)));
@@ -195,7 +195,10 @@ Json fields_json(const PageFields& fields) {
 }
 
 Json column_json(const PageColumn& column) {
-    return {{"name", column.name}, {"label", column.label}, {"unit", column.unit}};
+    Json json = {{"name", column.name}, {"label", column.label}, {"unit", column.unit}};
+    for (const auto& [unit, size] : column.units) json["units"].push_back({{"name", unit}, {"size", size}});
+    if (column.smooth) json["smooth"] = true;
+    return json;
 }
 
 // The wanted columns, with the time as the first one.
@@ -203,6 +206,8 @@ Json measures_json(const MeasureTable& table, const PageMeasures& measures,
                    const std::vector<std::size_t>& wanted) {
     std::vector<std::size_t> shown = {measures.time};
     shown.insert(shown.end(), wanted.begin(), wanted.end());
+    if (measures.cycles && std::find(wanted.begin(), wanted.end(), *measures.cycles) == wanted.end())
+        shown.push_back(*measures.cycles);
     Json columns = Json::array(), values = Json::array();
     for (const std::size_t column : shown) {
         columns.push_back(column_json(measures.columns[column]));

@@ -183,7 +183,7 @@ std::map<std::string, std::string> keys_of_scene(std::string_view text) {
     return keys;
 }
 
-std::string differences_html(const std::vector<NamedScene>& scenes) {
+std::string differences_html(const std::vector<NamedScene>& scenes, const PageWords& say) {
     std::vector<std::map<std::string, std::string>> all;
     std::set<std::string> names;
     for (const NamedScene& scene : scenes) {
@@ -204,19 +204,24 @@ std::string differences_html(const std::vector<NamedScene>& scenes) {
             rows += fmt::format("<tr><th scope=\"row\">{}</th>{}</tr>\n", html_text(name), cells);
     }
     std::string html =
-        "<section aria-labelledby=\"differences\">\n<h2 id=\"differences\">What differs</h2>\n";
-    if (rows.empty()) return html + "<p>The scenes are the same.</p>\n</section>\n";
+        fmt::format("<section aria-labelledby=\"differences\">\n<h2 id=\"differences\">{}</h2>\n",
+                    html_text(say("What differs")));
+    if (rows.empty())
+        return html + fmt::format("<p>{}</p>\n</section>\n", html_text(say("The scenes are the same.")));
     std::string heads;
     for (const NamedScene& scene : scenes)
         heads += fmt::format("<th scope=\"col\">{}</th>", html_text(scene.name));
-    return html +
-           fmt::format(
-               "<p>Plain numbers are in SI units, phases in turns, the camera's angles in degrees.</p>\n"
-               "<div class=\"table\" tabindex=\"0\" role=\"region\" "
-               "aria-label=\"Keys that differ\">\n<table>\n"
-               "<thead><tr><th scope=\"col\">key</th>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n</div>\n"
-               "</section>\n",
-               heads, rows);
+    return html + fmt::format(
+                      "<p>{2}</p>\n"
+                      "<div class=\"table\" tabindex=\"0\" role=\"region\" "
+                      "aria-label=\"{3}\">\n<table>\n"
+                      "<thead><tr><th "
+                      "scope=\"col\">{4}</th>{0}</tr></thead>\n<tbody>\n{1}</tbody>\n</table>\n</div>\n"
+                      "</section>\n",
+                      heads, rows,
+                      html_text(say(
+                          "Plain numbers are in SI units, phases in turns, the camera's angles in degrees.")),
+                      html_text(say("Keys that differ")), html_text(say("key")));
 }
 
 }  // namespace grainreel

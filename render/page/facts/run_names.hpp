@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/page/page_words.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -28,7 +29,7 @@ struct NamedScene {
 
 // A table of the keys whose values are not all the same, with a column for each scene; or a sentence that
 // there are none.
-std::string differences_html(const std::vector<NamedScene>& scenes);
+std::string differences_html(const std::vector<NamedScene>& scenes, const PageWords& say);
 
 // The keys and values in the text of a run's scene.toml: "drive.frequency" -> "20", "species.2.count" -> "10"
 // for the second species.

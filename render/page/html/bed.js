@@ -28,9 +28,21 @@ class BedPanel {
         this.showTime(runTime.now);
         runTime.listen((time) => this.showTime(time));
         new ResizeObserver(() => this.viewer.change()).observe(this.canvas);
-        for (const query of ["(prefers-color-scheme: dark)", "print"])
-            matchMedia(query).addEventListener("change", () => this.viewer.draw());
-        addEventListener("beforeprint", () => this.viewer.draw());
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.viewer.draw());
+        this.printed = element("canvas", {className: "bed-print"});
+        this.printed.setAttribute("aria-hidden", "true");
+        this.canvas.after(this.printed);
+        matchMedia("print").addEventListener("change", () => this.drawForPrint());
+        addEventListener("beforeprint", () => this.drawForPrint());
+    }
+
+    // Printers may see what WebGL has drawn as black, so they get a copy.
+    drawForPrint() {
+        if (this.canvas.clientWidth === 0) return;
+        this.viewer.draw();
+        const {width, height} = this.canvas;
+        Object.assign(this.printed, {width, height});
+        this.printed.getContext("2d").drawImage(this.canvas, 0, 0);
     }
 
     part(name) {
@@ -53,8 +65,11 @@ class BedPanel {
         const last = this.frames.times.length - 1;
         this.viewer.frame = this.runTime.isLive ? last : this.frames.indexAt(time);
         const shown = this.frames.times[this.viewer.frame];
-        const which = this.runTime.isLive ? "The newest moment" : `Moment ${this.viewer.frame + 1} of ${last + 1}`;
-        this.part("bed-says").textContent = `${which}, ${shown.toFixed(3)} s of the run.`;
+        const number = [this.viewer.frame + 1, last + 1, shown.toFixed(3), time.toFixed(3)];
+        this.part("bed-says").textContent =
+            this.runTime.isLive ? tr("The newest moment, {1} s of the run.", number[2])
+            : number[2] === number[3] ? tr("Moment {1} of {2}, {3} s of the run.", ...number)
+            : tr("Moment {1} of {2}, {3} s of the run, the nearest that was kept to {4} s.", ...number);
         this.tellChosen();
         this.showForces();
         this.viewer.change();
@@ -107,11 +122,11 @@ class BedPanel {
     sayForces(known, strong) {
         const {forces, frames} = this;
         const words = !known
-            ? `Forces between grains are known at ${forces.moments.length} moments of the page, the nearest at ` +
-              `${frames.times[this.nearestKey()].toFixed(3)} s. At this one they are not.`
+            ? tr("Forces between grains are known at {1} moments of the page, the nearest at {2} s. At this one they are not.",
+                 forces.moments.length, frames.times[this.nearestKey()].toFixed(3))
             : this.viewer.chains.length
-              ? `Bands join grains that push each other. The widest stand for ${numberText(strong)} N and more.`
-              : "The forces of this moment are known.";
+              ? tr("Bands join grains that push each other. The widest stand for {1} N and more.", numberText(strong))
+              : tr("The forces of this moment are known.");
         this.part("forces-say").textContent = words;
     }
 
@@ -148,18 +163,18 @@ class BedPanel {
         const rise = this.largestRise();
         const speeds = this.usualSpeeds();
         this.colourings = [
-            {name: "species", by: 0},
-            {name: "speed (logarithmic)", by: 1, range: speeds.shares, ends: speeds.ends, unit: "m/s", ramp: "sequential"},
-            {name: "height at start", by: 2, range: [lowest, highest], unit: "m", ramp: "sequential"},
-            {name: "rise since the moment before", by: 3, range: [-rise, rise], unit: "m", ramp: "diverging"},
+            {name: tr("species"), by: 0},
+            {name: tr("speed (logarithmic)"), by: 1, range: speeds.shares, ends: speeds.ends, unit: "m/s", ramp: "sequential"},
+            {name: tr("height at start"), by: 2, range: [lowest, highest], unit: "m", ramp: "sequential"},
+            {name: tr("rise since the moment before"), by: 3, range: [-rise, rise], unit: "m", ramp: "diverging"},
         ];
         if (facts.contacts)
-            this.colourings.push({name: "contact number", by: 4, range: [0, 8], unit: "", ramp: "sequential"});
+            this.colourings.push({name: tr("contact number"), by: 4, range: [0, 8], unit: "", ramp: "sequential"});
         if (this.forces)
-            this.colourings.push({name: "force (logarithmic)", by: 5, range: [0, 1], ends: this.forces.range, unit: "N", ramp: "sequential"});
+            this.colourings.push({name: tr("force (logarithmic)"), by: 5, range: [0, 1], ends: this.forces.range, unit: "N", ramp: "sequential"});
         const {film} = facts;
         if (film)
-            this.colourings.push({name: `as in the film: ${film.title}${film.logarithmic ? ", logarithmic" : ""}`, by: asInFilm, range: [0, 1], ends: [film.low, film.high], unit: film.unit});
+            this.colourings.push({name: tr(film.logarithmic ? "as in the film: {1}, logarithmic" : "as in the film: {1}", film.title), by: asInFilm, range: [0, 1], ends: [film.low, film.high], unit: film.unit});
     }
 
     /** Gives all beds the same colourings, each on a scale that suits all of them. */
@@ -253,7 +268,7 @@ class BedPanel {
         const list = this.part("species");
         this.facts.species.forEach((species, index) => {
             const select = element("select", {id: `species${this.n}-${index}`});
-            for (const [value, words] of [[255, "shown"], [128, "ghost"], [0, "hidden"]])
+            for (const [value, words] of [[255, tr("shown")], [128, tr("ghost")], [0, tr("hidden")]])
                 select.append(element("option", {value, selected: this.shown[index] === value}, words));
             select.addEventListener("change", () => {
                 this.shown[index] = Number(select.value);
@@ -327,12 +342,12 @@ class BedPanel {
         const grain = viewer.chosen, frame = viewer.frame;
         viewer.path = [];
         if (grain < 0) {
-            words.textContent = "No grain is chosen: click one, or give its id.";
+            words.textContent = tr("No grain is chosen: click one, or give its id.");
             return;
         }
-        const name = `Grain ${frames.ids[grain]}, ${this.facts.species[frames.species[grain]].name}`;
+        const name = tr("Grain {1}, {2}", frames.ids[grain], this.facts.species[frames.species[grain]].name);
         if (!frames.isPresent(frame, grain)) {
-            words.textContent = `${name}: not in the container at this moment.`;
+            words.textContent = tr("{1}: not in the container at this moment.", name);
             return;
         }
         viewer.path = frames.pathUntil(frame, grain);
@@ -340,17 +355,17 @@ class BedPanel {
         const inMm = place.map((value) => (1000 * value).toFixed(2)).join(", ");
         const speed = frames.speedAt(frame, grain);
         const parts = [
-            `diameter ${numberText(2000 * frames.radii[grain])} mm`,
-            `at (${inMm}) mm`,
+            tr("diameter {1} mm", numberText(2000 * frames.radii[grain])),
+            tr("at ({1}) mm", inMm),
             speed === null
-                ? "its speed is not known"
+                ? tr("its speed is not known")
                 : speed > 0
-                  ? `speed ${speed.toPrecision(2)} m/s`
-                  : `speed below ${numberText(this.facts.speed.lowest)} m/s`,
+                  ? tr("speed {1} m/s", speed.toPrecision(2))
+                  : tr("speed below {1} m/s", numberText(this.facts.speed.lowest)),
         ];
         const contacts = this.facts.contacts ? frames.contactsAt(frame, grain) : null;
-        if (contacts !== null) parts.push(`${contacts} contacts`);
-        parts.push(`way so far at least ${numberText(1000 * lengthOf(viewer.path))} mm`);
+        if (contacts !== null) parts.push(tr("{1} contacts", contacts));
+        parts.push(tr("way so far at least {1} mm", numberText(1000 * lengthOf(viewer.path))));
         words.textContent = `${name}: ${parts.join(", ")}. ${this.neighbours(frame, grain)}`;
         if (this.follow.checked) viewer.camera.target = place;
     }
@@ -358,10 +373,16 @@ class BedPanel {
     // Says which grains push this one at a key moment; at other moments, which grains are near.
     neighbours(frame, grain) {
         const mostNamed = 12, pushes = this.forces?.of(frame, grain);
-        const listed = (list) => list.slice(0, mostNamed).join(", ") + (list.length > mostNamed ? " and others" : "") || "none";
-        if (!pushes) return `Near neighbours: ${listed(this.frames.nearNeighbours(frame, grain).map((other) => this.frames.ids[other]))}.`;
-        const named = pushes.map(({other, force}) => `${other === null ? "a wall" : this.frames.ids[other]} with ${force.toPrecision(2)} N`);
-        return `Pushed by: ${listed(named)}.`;
+        const listed = (list) => {
+            if (!list.length) return tr("nobody");
+            const first = list.slice(0, mostNamed).join(", ");
+            return list.length > mostNamed ? tr("{1} and others", first) : first;
+        };
+        if (!pushes)
+            return tr("Near neighbours: {1}.", listed(this.frames.nearNeighbours(frame, grain).map((other) => this.frames.ids[other])));
+        const named = pushes.map(({other, force}) =>
+            tr("{1} with {2} N", other === null ? tr("a wall") : this.frames.ids[other], force.toPrecision(2)));
+        return tr("Pushed by: {1}.", listed(named));
     }
 }
 

@@ -16,6 +16,7 @@ class Charts {
         this.runTime = runTime;
         this.place = document.getElementById("charts");
         this.plots = new Map(); // by the column's name
+        this.titles = new Map(); // by the same: the elements with the charts' titles
         this.range = null; // of time, s; null for all
         this.removed = new Set(); // names of columns whose charts the reader took away
         this.runs = runs;
@@ -42,7 +43,10 @@ class Charts {
         this.columns = new Map(); // by name, of all runs
         for (const {measures} of this.runs)
             for (const column of measures.columns.slice(1)) this.columns.set(column.name, column);
-        for (const [name, plot] of this.plots) plot.setData(this.dataOf(name));
+        for (const [name, plot] of this.plots) {
+            this.titles.get(name).textContent = titleOf(this.columns.get(name), this.unitOf(name));
+            plot.setData(this.dataOf(name));
+        }
     }
 
     // The values of a column in a run; null when the run lacks it.
@@ -51,21 +55,31 @@ class Charts {
         return at > 0 ? measures.values[at] : null;
     }
 
-    // The data of a chart: the times, and a line for each run.
+    // The data of a chart: the times, and for each run its rows and, where the film has them, their means over a period.
     dataOf(name) {
         const tables = this.runs.map((run) => {
-            const times = run.measures.values[0];
-            return [times, this.valuesOf(name, run) ?? times.map(() => null)];
+            const times = run.measures.values[0], values = this.valuesOf(name, run) ?? times.map(() => null);
+            return this.columns.get(name).smooth ? [times, values, meansOf(values, this.valuesOf("cycles", run))] : [times, values];
         });
         return tables.length === 1 ? tables[0] : uPlot.join(tables);
     }
 
+    // The unit that suits the largest value of all runs, as in films: {name, size in SI}.
+    unitOf(name) {
+        const {units, unit} = this.columns.get(name);
+        if (!units) return {name: unit, size: 1};
+        let largest = 0;
+        for (const run of this.runs)
+            for (const value of this.valuesOf(name, run) ?? []) largest = Math.max(largest, Math.abs(value ?? 0));
+        return units.find(({size}) => largest >= 0.5 * size) ?? units[units.length - 1];
+    }
+
     fillChooser() {
         const chooser = document.getElementById("more-charts");
-        chooser.replaceChildren(element("option", {value: ""}, "Add a chart…"));
+        chooser.replaceChildren(element("option", {value: ""}, tr("Add a chart…")));
         for (const column of this.columns.values())
             if (!this.plots.has(column.name))
-                chooser.append(element("option", {value: column.name}, titleOf(column)));
+                chooser.append(element("option", {value: column.name}, column.label));
         chooser.onchange = () => {
             if (chooser.value) this.add(chooser.value);
             this.fillChooser();
@@ -81,15 +95,19 @@ class Charts {
         if (!column) return;
         const frame = element("figure", {className: "chart"});
         const summary = this.summaryOf(column);
-        const words = element("figcaption", {}, titleOf(column));
-        const remove = element("button", {type: "button", title: "Remove this chart"}, "×");
-        remove.setAttribute("aria-label", `Remove the chart of ${column.label}`);
+        const title = element("span", {}, titleOf(column, this.unitOf(name)));
+        const words = element("figcaption", {}, title);
+        const remove = element("button", {type: "button", title: tr("Remove this chart")}, "×");
+        remove.setAttribute("aria-label", tr("Remove the chart of {1}", column.label));
         words.append(remove);
         const canvas = element("div", {role: "img", "aria-label": summary});
         frame.append(words, canvas);
+        if (this.runs.length === 1) frame.classList.add("alone");
+        if (column.smooth) frame.append(element("p", {className: "faint"}, tr("mean of a period; the faint line has all rows")));
         this.place.append(frame);
         const plot = new uPlot(this.optionsOf(column, canvas), this.dataOf(name), canvas);
         this.plots.set(name, plot);
+        this.titles.set(name, title);
         this.scrubIn(plot);
         remove.addEventListener("click", () => {
             this.removed.add(name);
@@ -106,42 +124,47 @@ class Charts {
     summaryOf(column) {
         const several = this.runs.length > 1;
         const ofRuns = this.runs.map((run) => (several ? `${run.name}: ` : "") + this.summaryOfRun(column, run));
-        return `${titleOf(column)} against time: ${ofRuns.join("; ")}.`;
+        return tr("{1} against time: {2}.", titleOf(column, this.unitOf(column.name)), ofRuns.join("; "));
     }
 
     summaryOfRun(column, run) {
         const values = (this.valuesOf(column.name, run) ?? []).filter((value) => value !== null);
-        if (!values.length) return "no value";
+        if (!values.length) return tr("no value");
         let low = values[0], high = values[0];
         for (const value of values) {
             low = Math.min(low, value);
             high = Math.max(high, value);
         }
-        return (
-            `at first ${numberText(values[0])}, at the end ${numberText(values[values.length - 1])}, ` +
-            `between ${numberText(low)} and ${numberText(high)}`
-        );
+        return tr("at first {1}, at the end {2}, between {3} and {4}",
+                  ...[values[0], values[values.length - 1], low, high].map((value) => numberText(value / this.unitOf(column.name).size)));
     }
 
+    // Open axes as in films and in print: a line to the left and one below, and faint lines at the ticks.
     optionsOf(column, canvas) {
-        const ink = () => colourOf("--ink"), line = () => colourOf("--line");
-        const axis = {stroke: ink, grid: {stroke: line, width: 1}, ticks: {stroke: line, width: 1}};
-        const value = (plot, number) => (number === null || number === undefined ? "–" : numberText(number));
+        const ink = () => colourOf("--ink"), line = () => colourOf("--line"), axisLine = () => colourOf("--faint");
+        const axis = {stroke: ink, border: {show: true, stroke: axisLine, width: 1}, ticks: {stroke: axisLine, width: 1, size: 5}};
+        const inUnit = (number) => number / this.unitOf(column.name).size;
+        const value = (plot, number) => (number === null || number === undefined ? "–" : numberText(inUnit(number)));
+        const time = (plot, number) => (number === null || number === undefined ? "–" : numberText(number));
+        const timeName = `${tr("time")} (s)`;
         return {
             width: canvas.clientWidth || 300,
             height: chartHeight,
             cursor: {sync: {key: "run"}, drag: {x: false, y: false, setScale: false}},
             scales: {x: {time: false}},
             axes: [
-                {...axis, size: 40, label: "time of the run (s)", labelSize: 18},
-                {...axis, size: 62, values: (plot, ticks) => ticks.map(numberText)},
+                {...axis, grid: {show: false}, size: 40, label: timeName, labelSize: 18, values: (plot, ticks) => tickTexts(ticks)},
+                {...axis, grid: {stroke: line, width: 1}, size: 62, values: (plot, ticks) => tickTexts(ticks.map(inUnit))},
             ],
-            series: [
-                {label: "time (s)", value},
-                ...this.runs.map(({name}, k) => ({label: name || "value", value, ...styleOfRun(k, this.runs.length)})),
-            ],
+            series: [{label: timeName, value: time}, ...this.runs.flatMap((run, k) => this.linesOf(column, run, k, value))],
             hooks: {draw: [(plot) => this.drawNow(plot)]},
         };
+    }
+
+    linesOf(column, {name}, k, value) {
+        const main = {label: name || tr("value"), value, ...styleOfRun(k, this.runs.length)};
+        if (!column.smooth) return [main];
+        return [{...main, class: "rows", dash: [], width: 1, alpha: 0.3}, main];
     }
 
     // A line at the moment that film and bed show.
@@ -220,8 +243,31 @@ function styleOfRun(k, runs) {
     return {stroke, dash: runs > 1 ? dashes[k % dashes.length] : [], width: 1.5, points: {show: false}};
 }
 
-function titleOf(column) {
-    return column.unit ? `${column.label} (${column.unit})` : column.label;
+function titleOf(column, unit) {
+    return unit.name ? `${column.label} (${unit.name})` : column.label;
+}
+
+/** Ticks with as many decimals as their distance needs. */
+function tickTexts(ticks) {
+    const distance = ticks.length > 1 ? Math.abs(ticks[1] - ticks[0]) : 1;
+    let decimals = 0;
+    while (decimals < 9 && Math.abs(distance * 10 ** decimals - Math.round(distance * 10 ** decimals)) > 1e-6 * distance * 10 ** decimals) ++decimals;
+    const largest = Math.max(...ticks.map(Math.abs));
+    if (decimals > 4 || largest >= 1e5) return ticks.map(numberText);
+    return ticks.map((tick) => withMinus((Math.abs(tick) < 1e-6 * distance ? 0 : tick).toFixed(decimals)));
+}
+
+/** The mean of each row and of those less than a period before it; null before a period has passed, as in films. */
+function meansOf(values, cycles) {
+    if (!cycles) return values;
+    const hair = 1e-3; // of a period: rows are at whole time steps
+    let first = 0;
+    return values.map((_, row) => {
+        while (cycles[first] <= cycles[row] - 1 + hair) ++first;
+        if (cycles[row] < 1 - hair) return null;
+        const known = values.slice(first, row + 1).filter((value) => value !== null);
+        return known.length ? known.reduce((a, b) => a + b, 0) / known.length : null;
+    });
 }
 
 /** Reads measures.csv column by column, the time first; empty cells become null. facts: about the columns. */

@@ -6,6 +6,13 @@ function factsOf(id) {
     return element ? JSON.parse(element.textContent) : null;
 }
 
+const words = factsOf("facts")?.words ?? {}; // the page's words that are not English, by their English text
+
+/** The words for an English text, with parts in place of {1}, {2} ... (render/page/page_words_table.hpp) */
+function tr(english, ...parts) {
+    return (words[english] ?? english).replace(/\{([1-9])\}/g, (whole, number) => String(parts[number - 1] ?? whole));
+}
+
 /** The bytes of the blob `id`; null without one. */
 function bytesOf(id) {
     const element = document.getElementById(id);
@@ -30,12 +37,20 @@ async function inflated(bytes) {
     return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** A number as text: four digits, with an exponent only when it is needed. */
+/** A number as text: four digits, with a power of ten only when it is needed. */
 function numberText(value) {
     if (value === null || !Number.isFinite(value)) return "–";
     const size = Math.abs(value);
-    if (value !== 0 && (size < 1e-3 || size >= 1e5)) return value.toExponential(3);
-    return String(Number(value.toPrecision(4)));
+    if (value !== 0 && (size < 1e-3 || size >= 1e5)) {
+        const [digits, power] = value.toExponential(3).split("e");
+        return withMinus(`${Number(digits)}·10${[...String(Number(power))].map((sign) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(sign)]).join("")}`);
+    }
+    return withMinus(String(Number(value.toPrecision(4))));
+}
+
+/** A number with a true minus in place of a hyphen. */
+function withMinus(text) {
+    return text.replace("-", "−");
 }
 
 /** The index of the entry nearest to `time`. The entries of `times` must rise. */

@@ -136,7 +136,7 @@ class FieldsPanel {
         context.strokeRect(room.left, room.top, width - room.left - room.right, height - room.top - room.bottom);
         const inMm = (place) => numberText(1000 * Number(place.toPrecision(3)));
         const texts = upright ? [[numberText(low), numberText(high)], [inMm(first), inMm(last)], `${this.about().unit || "share"}`, "mm"]
-                              : [[inMm(first), inMm(last)], [numberText(low), numberText(high)], "across, mm", this.about().unit];
+                              : [[inMm(first), inMm(last)], [numberText(low), numberText(high)], `${tr("across")}, mm`, this.about().unit];
         context.textAlign = "left";
         context.fillText(texts[0][0], room.left, height - 24);
         context.textAlign = "right";
@@ -165,12 +165,12 @@ class FieldsPanel {
 
     tell(more = "") {
         const [begin, end] = this.facts.records[this.record], {label, unit} = this.about();
-        const text = `${label}, mean from ${numberText(begin)} to ${numberText(end)} s of the run.`;
+        const text = tr("{1}, mean from {2} to {3} s of the run.", label, numberText(begin), numberText(end));
         this.part("field-says").textContent = text + more;
         const values = this.profile("z").filter(([, value]) => value !== null);
         const part = (at) => (values.length ? `${numberText(values[at][1])} ${unit}` : "none");
-        this.map.setAttribute("aria-label", `Map of the ${text}`);
-        this.line.setAttribute("aria-label", `Profile of the ${text} At the bottom ${part(0)}, at the top ${part(values.length - 1)}.`);
+        this.map.setAttribute("aria-label", tr("Map: {1}", text));
+        this.line.setAttribute("aria-label", tr("Profile: {1} At the bottom {2}, at the top {3}.", text, part(0), part(values.length - 1)));
     }
 
     tellCell(event) {

@@ -18,7 +18,7 @@ class FilmPanel {
         this.video.addEventListener("pause", () => this.ended(bar));
         this.video.addEventListener("seeked", () => this.seekWanted());
         this.video.addEventListener("seeking", () => this.noteSeek());
-        this.video.addEventListener("error", () => this.say("This browser cannot play the film."));
+        this.video.addEventListener("error", () => this.say(tr("This browser cannot play the film.")));
         bar.player ??= {play: () => this.play(), pause: () => this.pause()};
         if (!this.tied) return;
         this.takeOverControls();
@@ -41,7 +41,7 @@ class FilmPanel {
         video.classList.add("tied");
         video.addEventListener("click", () => (video.paused ? this.play() : this.pause()));
         if (!video.requestFullscreen) return;
-        const button = element("button", {type: "button"}, "Full screen");
+        const button = element("button", {type: "button"}, tr("Full screen"));
         button.addEventListener("click", () => video.requestFullscreen());
         video.addEventListener("fullscreenchange", () => (video.controls = document.fullscreenElement === video));
         video.after(element("p", {className: "no-print"}, button));
@@ -78,7 +78,7 @@ class FilmPanel {
     }
 
     play() {
-        this.video.play().catch((reason) => this.say(`The film does not play: ${reason.message}.`));
+        this.video.play().catch((reason) => this.say(tr("The film does not play: {1}.", reason.message)));
     }
 
     say(text) {
@@ -106,7 +106,7 @@ class FilmPanel {
         const frame = Math.min(this.film.times.length - 1, Math.floor(seconds * this.film.rate + 0.01));
         this.frame = frame;
         const of = this.film.times.length;
-        this.say(`Frame ${frame + 1} of ${of}, ${this.film.times[frame].toFixed(3)} s of the run.`);
+        this.say(tr("Frame {1} of {2}, {3} s of the run.", frame + 1, of, this.film.times[frame].toFixed(3)));
         if (this.leads && !this.follows) this.runTime.set(this.film.times[frame], this);
     }
 

@@ -14,9 +14,9 @@ class Live {
         for (const words of document.querySelectorAll(".whole-run")) words.hidden = true;
         document.getElementById("bar").hidden = true; // there is no way back in time
         for (const button of document.querySelectorAll("button[data-time]")) button.replaceWith(button.textContent);
-        document.getElementById("bed-says").textContent = "The run has written no grains yet.";
-        document.getElementById("film-says").textContent = "The film has no picture yet.";
-        document.getElementById("charts-say").textContent = "The run has measured nothing yet.";
+        document.getElementById("bed-says").textContent = tr("The run has written no grains yet.");
+        document.getElementById("film-says").textContent = tr("The film has no picture yet.");
+        document.getElementById("charts-say").textContent = tr("The run has measured nothing yet.");
     }
 
     async go() {
@@ -29,7 +29,7 @@ class Live {
             this.isOver = state.over;
         } catch {
             this.failures = (this.failures ?? 0) + 1;
-            if (this.failures > 2) this.say("The program that shows the run has ended; what it showed last is below.");
+            if (this.failures > 2) this.say(tr("The program that shows the run has ended; what it showed last is below."));
         }
         const wait = this.failures > 2 || this.isOver ? 10 : document.hidden ? 5 : 1;
         setTimeout(() => this.go(), 1000 * wait * secondsBetweenLooks);
@@ -40,17 +40,17 @@ class Live {
     }
 
     tell(state) {
-        const of = `${numberText(Math.max(0, state.time))} of ${numberText(state.end)} s`;
-        const left = state.remaining === null ? "" : `, ${durationText(state.remaining)} left`;
+        const of = tr("{1} of {2} s", numberText(Math.max(0, state.time)), numberText(state.end));
+        const left = state.remaining === null ? "" : tr(", {1} left", durationText(state.remaining));
         const words = {
-            packing: "The grains are being packed.",
+            packing: tr("The grains are being packed."),
             running: `${of}${left}.`,
-            complete: `The run is complete: ${numberText(state.time)} s.`,
-            interrupted: `The run was stopped at ${of}.`,
-            failed: `The run failed at ${of}; log.txt tells why.`,
-            gone: "The run’s folder has gone.",
+            complete: tr("The run is complete: {1} s.", numberText(state.time)),
+            interrupted: tr("The run was stopped at {1}.", of),
+            failed: tr("The run failed at {1}; log.txt tells why.", of),
+            gone: tr("The run’s folder has gone."),
         };
-        this.say(words[state.stage] ?? `The run was broken off at ${of}.`);
+        this.say(words[state.stage] ?? tr("The run was broken off at {1}.", of));
         const bar = document.getElementById("live-done");
         if (state.stage === "packing") bar.removeAttribute("value");
         else bar.value = state.done;
@@ -74,7 +74,7 @@ class Live {
         say("charts-say", "");
         if (!this.charts) {
             this.charts = new Charts([{name: "", measures}], measures.charts, this.runTime);
-            const link = element("a", {href: "./measures.csv", download: ""}, "Download measures.csv");
+            const link = element("a", {href: "./measures.csv", download: ""}, tr("Download {1}", "measures.csv"));
             document.getElementById("downloads").append(link);
             report.charts = this.charts;
         } else {
@@ -100,7 +100,7 @@ class Live {
                 report.bed = this.bed;
             }
         } catch (problem) {
-            say("bed-says", `The bed in three dimensions is not shown: ${problem.message}.`);
+            say("bed-says", tr("The bed in three dimensions is not shown: {1}. Film and charts do without it.", problem.message));
             this.has.bed = state.bed;
         }
     }
@@ -121,7 +121,7 @@ class Live {
         this.has.picture = version;
         picture.src = next.src;
         picture.hidden = false;
-        say("film-says", "The film’s newest picture.");
+        say("film-says", tr("The film’s newest picture."));
     }
 }
 

@@ -15,7 +15,7 @@ async function openTable(run, k, n) {
     if (!packed || !charts) return;
     try {
         const bytes = await inflated(packed);
-        offerTable(bytes, facts.runs ? `${run.folder}.csv` : "measures.csv", `Download ${facts.runs ? run.name : "measures.csv"}`);
+        offerTable(bytes, facts.runs ? `${run.folder}.csv` : "measures.csv", tr("Download {1}", facts.runs ? run.name : "measures.csv"));
         charts.take(readTable(new TextDecoder().decode(bytes), run.columns), k);
         charts.fillChooser();
     } catch (problem) {
@@ -36,7 +36,7 @@ async function openBed(run, n) {
         return new BedPanel(run.bed, await inflated(packed), runTime, n, forces && (await inflated(forces)),
                             meshes && (await inflated(meshes)));
     } catch (problem) {
-        say("bed-says" + n, `The bed in three dimensions is not shown: ${problem.message}. Film and charts do without it.`);
+        say("bed-says" + n, tr("The bed in three dimensions is not shown: {1}. Film and charts do without it.", problem.message));
         return null;
     }
 }
@@ -73,9 +73,9 @@ function bindCopies() {
             getSelection().selectAllChildren(text);
             try {
                 await navigator.clipboard.writeText(text.textContent);
-                button.textContent = "Copied";
+                button.textContent = tr("Copied");
             } catch {
-                button.textContent = "Selected: copy it with Ctrl-C";
+                button.textContent = tr("Selected: copy it with Ctrl-C");
             }
         });
 }
@@ -95,7 +95,7 @@ async function openFields(run, n) {
     try {
         return new FieldsPanel(run.fields, await inflated(packed), runTime, n);
     } catch (problem) {
-        say("field-says" + n, `The fields are not shown: ${problem.message}.`);
+        say("field-says" + n, tr("The fields are not shown: {1}.", problem.message));
         return null;
     }
 }
@@ -107,6 +107,7 @@ function endOf(k) {
 
 async function openPage() {
     report.films = runs.map((run, k) => openFilm(run, endOf(k)));
+    if (facts.runs && facts.film) report.films.unshift(openFilm(facts, "-all")); // of all runs, side by side
     report.beds = [];
     for (const [k, run] of runs.entries()) report.beds.push(await openBed(run, endOf(k)));
     performance.mark("beds");
@@ -147,7 +148,7 @@ function hideUseless() {
 const facts = factsOf("facts");
 const runTime = new RunTime(facts.begin, facts.end);
 const runs = facts.runs ?? [facts];
-const bar = new TimeBar(runTime, stepsOf(runs[0]), facts.frequency);
+const bar = new TimeBar(runTime, stepsOf(facts.runs && facts.film?.times.length ? facts : runs[0]), facts.frequency);
 const charts = makeCharts();
 hideUseless();
 bindCopies();

@@ -71,8 +71,7 @@ class TimeBar {
     show(time, source) {
         const span = this.runTime.end - this.runTime.begin || 1;
         if (source !== this) this.slider.value = Math.round((1000 * (time - this.runTime.begin)) / span);
-        let text = `${time.toFixed(3)} s`;
-        if (this.drive) text += `, period ${(time * this.drive).toFixed(2)}`;
+        const text = this.drive ? tr("{1} s, period {2}", time.toFixed(3), (time * this.drive).toFixed(2)) : `${time.toFixed(3)} s`;
         this.words.textContent = text;
         this.slider.setAttribute("aria-valuetext", text);
     }
@@ -80,7 +79,7 @@ class TimeBar {
     /** To be called by the player when it starts or stops, since the film can also be started by its own buttons. */
     setPlaying(is) {
         this.isPlaying = is;
-        this.button.textContent = is ? "Pause" : "Play";
+        this.button.textContent = tr(is ? "Pause" : "Play");
     }
 
     // Without a film this plays the bed's moments, twelve a second.

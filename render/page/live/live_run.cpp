@@ -241,28 +241,34 @@ std::string live_page(const FilmedScene& scene, const std::filesystem::path& fol
                       const std::optional<PlannedScene>& planned) {
     const ReadRunJson record = record_of_page(folder);
     const PageFiles& files = page_files();
+    const PageWords say(scene.film.wording);
+    const std::string about = html_text(say("One picture of the run: {1}", {lead_text(scene, say)}));
     const std::string picture =
-        "<img id=\"live-picture\" class=\"poster\" alt=\"The film's newest picture: grains in their "
-        "container, with "
-        "time and scale beside them\" hidden>\n";
-    const std::string bed = filled(
-        files.bed, {{"about",
-                     "The newest moment that the run has written. Places are rounded to 16 bits over the box "
-                     "that the grains reach."},
-                    {"n", ""}});
-    const std::string body = filled(
-        files.body,
-        {{"film", picture}, {"bed", bed}, {"fields", ""}, {"charts", filled(files.charts, {{"about", ""}})}});
-    return filled(files.page, {{"title", html_text(scene.title.empty() ? scene.name : scene.title)},
-                               {"body_class", ""},
-                               {"style", std::string(files.style)},
-                               {"lead", lead_html(scene)},
-                               {"live", std::string(files.live)},
-                               {"body", body},
-                               {"words", chapters_html(scene, record, planned, folder, kPageName)},
-                               {"facts", json_in_html(live_facts_json(scene))},
-                               {"script", files.script(!scene.meshes.empty())},
-                               {"blobs", ""}});
+        fmt::format("<img id=\"live-picture\" class=\"poster\" alt=\"{}\" hidden>\n", about);
+    const std::string bed =
+        filled(say.in(files.bed),
+               {{"about",
+                 "The newest moment that the run has written. Places are rounded to 16 bits over the box "
+                 "that the grains reach."},
+                {"n", ""},
+                {"english", say.on_english()}});
+    const std::string body =
+        filled(say.in(files.body), {{"film", picture},
+                                    {"bed", bed},
+                                    {"fields", ""},
+                                    {"charts", filled(say.in(files.charts), {{"about", ""}})}});
+    return filled(say.in(files.page),
+                  {{"title", html_text(scene.title.empty() ? scene.name : scene.title)},
+                   {"lang", say.code()},
+                   {"body_class", ""},
+                   {"style", std::string(files.style)},
+                   {"lead", lead_html(scene, say)},
+                   {"live", say.in(files.live)},
+                   {"body", body},
+                   {"words", chapters_html(scene, record, planned, folder, kPageName, say)},
+                   {"facts", json_in_html(say.with_words(live_facts_json(scene)))},
+                   {"script", files.script(!scene.meshes.empty())},
+                   {"blobs", ""}});
 }
 
 std::string waiting_page(const std::string& title) {

@@ -173,13 +173,17 @@ TextSize measure_text(const std::string& text, const TextStyle& style, double wr
     return size_of(make_wrapped(text, style, wrap, lines).get());
 }
 
+bool keeps_text(cairo_t* on) {
+    return cairo_surface_get_type(cairo_get_target(on)) == CAIRO_SURFACE_TYPE_PDF;
+}
+
 TextSize draw_text(cairo_t* on, double x, double y, const std::string& text, const TextStyle& style,
                    const Colour& colour, double wrap, int lines) {
     const Layout layout = make_wrapped(text, style, wrap, lines);
     set_colour(on, colour);
     cairo_new_path(on);
     cairo_move_to(on, x, y);
-    if (has_outlines(layout.get())) {
+    if (has_outlines(layout.get()) && !keeps_text(on)) {
         pango_cairo_layout_path(on, layout.get());
         cairo_fill(on);
     } else {

@@ -39,6 +39,20 @@ double longest_word(const std::string& text, const TextStyle& style);
 TextSize draw_text(cairo_t* on, double x, double y, const std::string& text, const TextStyle& style,
                    const Colour& colour, double wrap = 0, int lines = 1);
 
+// Draws on a part of a page: its corner becomes the origin, and nothing is drawn beyond it.
+template <class Draw>
+void draw_part(cairo_t* on, const Rectangle& part, const Draw& draw) {
+    cairo_save(on);
+    cairo_rectangle(on, part.x, part.y, part.width, part.height);
+    cairo_clip(on);
+    cairo_translate(on, part.x, part.y);
+    draw();
+    cairo_restore(on);
+}
+
+// Whether texts stay text on this context, as on a page of PDF. On others letters become pixels.
+bool keeps_text(cairo_t* on);
+
 // Surfaces and contexts of Cairo that delete themselves.
 struct CairoDestroy {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }

@@ -105,8 +105,9 @@ Common common_of(const std::vector<Panel>& panels) {
         common.marks.rings =
             common.marks.rings && x.highlighted == y.highlighted && x.highlight_if == y.highlight_if;
         common.playback = common.playback && panel.playback == panels.front().playback;
-        common.captions =
-            common.captions && !scene.film.captions.empty() && scene.film.captions == first.film.captions;
+        common.captions = common.captions && !scene.film.captions.empty() &&
+                          !has_values(scene.film.captions) &&
+                          scene.film.captions == first.film.captions;  // each panel tells its own values
         common.exaggerated = common.exaggerated && scene.film.exaggerate == first.film.exaggerate;
         common.species = common.species && scene.colours == first.colours &&
                          std::equal(scene.species.begin(), scene.species.end(), first.species.begin(),

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "render/picture/base/cairo_text.hpp"
+#include "render/picture/base/pdf_page.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/panels/panel_words.hpp"
 #include "render/picture/whole/renderer.hpp"
@@ -94,13 +95,16 @@ struct SideBySide::Impl {
     // Draws a part of the picture anew: it is made blank, and then write(Writer) fills it.
     template <class Write>
     void renew(const Rectangle& part, const Write& write);
-    void write_still_words(const std::vector<Panel>& panels, const Film& film);
+    void write_still_words();
+    void write_all_words(const std::vector<ShotPtr>& frames, std::size_t segment, std::size_t clock);
     void write_changing_words(const Shot& frame, const std::string& playback);
     void write_note(std::size_t panel, const Shot& frame);
     const std::string& pace_of(std::size_t panel, std::size_t segment) const;
     void write_pace(std::size_t panel, const std::string& words);
     void draw_plots(const std::vector<ShotPtr>& frames);
 
+    const std::vector<Panel> panels;
+    const Film film;
     const bool clear;  // whether the background is transparent
     Palette palette;
     TypeScale type;
@@ -114,11 +118,14 @@ struct SideBySide::Impl {
     std::vector<std::string> notes, paces;           // words that are in the picture now
     bool plots_drawn = false;
     Picture picture;
+    PdfPage* page = nullptr;  // words are drawn on it while there is one
 };
 
-SideBySide::Impl::Impl(const std::vector<Panel>& panels, const Film& film, int raster_threads,
+SideBySide::Impl::Impl(const std::vector<Panel>& all, const Film& whole, int raster_threads,
                        gl::Provider provider)
-    : clear(film.transparent),
+    : panels(all),
+      film(whole),
+      clear(film.transparent),
       palette(palette_of(film)),
       type(panel_type(film)),
       common(common_of(panels)),
@@ -142,12 +149,14 @@ SideBySide::Impl::Impl(const std::vector<Panel>& panels, const Film& film, int r
     }
     blocks = common_blocks(measure, drawn, common, layout.scale, film);
     flow(blocks, type, film.width);
-    write_still_words(panels, film);
+    renew({0, 0, film.width, film.height}, [](const Writer&) {});
+    write_still_words();
 }
 
 template <class Write>
 void SideBySide::Impl::renew(const Rectangle& part, const Write& write) {
     if (part.width <= 0 || part.height <= 0) return;
+    if (page) return draw_part(page->on(), part, [&] { write(Writer{page->on(), type, palette}); });
     const CairoSurface surface = blank_surface(part, palette.background, clear ? 0 : 1);
     const CairoContext on(cairo_create(surface.get()));
     write(Writer{on.get(), type, palette});
@@ -158,8 +167,7 @@ void SideBySide::Impl::renew(const Rectangle& part, const Write& write) {
         copy_part(surface.get(), all, part.x, part.y, picture);
 }
 
-void SideBySide::Impl::write_still_words(const std::vector<Panel>& panels, const Film& film) {
-    renew({0, 0, film.width, film.height}, [](const Writer&) {});
+void SideBySide::Impl::write_still_words() {
     renew(layout.top, [&](const Writer& on) {
         const std::string title = shown_title(film);
         if (title.empty()) return;
@@ -233,6 +241,16 @@ void SideBySide::Impl::draw_plots(const std::vector<ShotPtr>& frames) {
     plots_drawn = true;
 }
 
+void SideBySide::Impl::write_all_words(const std::vector<ShotPtr>& frames, std::size_t segment,
+                                       std::size_t clock) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        write_note(i, *frames[i]);
+        write_pace(i, playback_text(scenes[i].film, *frames[i], pace_of(i, segment)));
+    }
+    draw_plots(frames);
+    write_changing_words(*frames[clock], pace_of(0, segment));
+}
+
 SideBySide::SideBySide(const std::vector<Panel>& panels, const Film& film, int raster_threads,
                        gl::Provider provider)
     : impl_(std::make_unique<Impl>(panels, film, raster_threads, provider)) {}
@@ -249,12 +267,27 @@ const Picture& SideBySide::draw(const std::vector<ShotPtr>& frames, std::size_t 
         for (int y = 0; y < port.height; ++y)
             std::memcpy(m.picture.pixel(port.x, port.y + y), panel.pixel(0, y),
                         static_cast<std::size_t>(port.width) * 4);
-        m.write_note(i, *frames[i]);
-        m.write_pace(i, playback_text(m.scenes[i].film, *frames[i], m.pace_of(i, segment)));
     }
-    m.draw_plots(frames);
-    m.write_changing_words(*frames[clock], m.pace_of(0, segment));
+    m.write_all_words(frames, segment, clock);
     return m.picture;
+}
+
+void SideBySide::draw_page(PdfPage& page, const std::vector<ShotPtr>& frames, std::size_t segment,
+                           std::size_t clock, double film_time) {
+    Impl& m = *impl_;
+    GRAINREEL_CHECK(frames.size() == m.renderers.size() && clock < frames.size());
+    if (!m.clear) fill_surface(page.on(), m.palette.background);
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        draw_part(page.on(), m.layout.places[i].port,
+                  [&] { m.renderers[i]->draw_page(page, *frames[i], "", film_time); });
+    // What the picture says so far is forgotten, so all words are drawn.
+    m.notes.clear();
+    m.paces.clear();
+    m.plots_drawn = false;
+    m.page = &page;
+    m.write_still_words();
+    m.write_all_words(frames, segment, clock);
+    m.page = nullptr;
 }
 
 const PanelLayout& SideBySide::layout() const {

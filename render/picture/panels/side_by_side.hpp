@@ -15,6 +15,8 @@
 
 namespace grainreel {
 
+class PdfPage;
+
 // Lays out the panels in a picture of the film's size. The layout has no places when the picture is too
 // small.
 PanelLayout layout_of(const std::vector<Panel>& panels, const Film& film);
@@ -31,6 +33,10 @@ class SideBySide {
     // frame, for cameras that move.
     const Picture& draw(const std::vector<ShotPtr>& frames, std::size_t segment = 0, std::size_t clock = 0,
                         double film_time = 0);
+
+    // Draws the same on a page of PDF, its words as text.
+    void draw_page(PdfPage& page, const std::vector<ShotPtr>& frames, std::size_t segment, std::size_t clock,
+                   double film_time);
 
     const PanelLayout& layout() const;
     std::string last_note() const;  // the notes of all renderers

@@ -181,9 +181,15 @@ const std::string& Plot::unit(double largest) {
     return *unit_;
 }
 
-void Plot::draw_axes() {
+// Axes are drawn anew only when their limits have changed.
+void Plot::keep_axes() {
     const CairoContext on(cairo_create(axes_.get()));
     fill_surface(on.get(), palette_.background, 0);
+    draw_axes(on.get());
+    drawn_ = span();
+}
+
+void Plot::draw_axes(cairo_t* on) {
     const TextStyle minor{type_.minor, false};
     const double tick = 0.3 * type_.minor;
     const auto& [low, high] = span();
@@ -192,28 +198,27 @@ void Plot::draw_axes() {
     const double size = unit_size(shown_unit, frame_.dimension);
     const std::string title =
         shown_unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, shown_unit);
-    draw_title(on.get(), title, frame_.width, frame_.height, type_, palette_.ink);
+    draw_title(on, title, frame_.width, frame_.height, type_, palette_.ink);
 
     // If all values are 0, no unit fits them, and the only tick is at 0.
     const bool zeros = high - low < 10 * least_room && low <= 0 && high >= 0;
     const PlotBox box{left_, right_, top_, bottom_};
     const AxisTicks ticks = zeros ? AxisTicks{{0}, 1} : upright_ticks(box, type_, low / size, high / size);
     draw_upright_axis(
-        on.get(), box, ticks, [&](double value) { return y_of(value * size); }, type_, palette_);
-    draw_line(on.get(), left_, bottom_, right_, bottom_);
+        on, box, ticks, [&](double value) { return y_of(value * size); }, type_, palette_);
+    draw_line(on, left_, bottom_, right_, bottom_);
     double below = 0;
     for (const TimeTick& at : time_ticks()) {
         const double x = x_of(at.time);
-        set_colour(on.get(), palette_.faint_ink);
-        draw_line(on.get(), x, bottom_, x, bottom_ + tick);
+        set_colour(on, palette_.faint_ink);
+        draw_line(on, x, bottom_, x, bottom_ + tick);
         const TextSize words = measure_text(at.text, minor);
-        draw_text(on.get(), x - 0.5 * words.width, bottom_ + tick, at.text, minor, palette_.faint_ink);
+        draw_text(on, x - 0.5 * words.width, bottom_ + tick, at.text, minor, palette_.faint_ink);
         below = words.height;
     }
     const std::string name = fmt::format("{} ({})", frame_.time_name, short_run() ? "ms" : "s");
-    draw_text(on.get(), right_ - measure_text(name, minor).width, bottom_ + tick + below, name, minor,
+    draw_text(on, right_ - measure_text(name, minor).width, bottom_ + tick + below, name, minor,
               palette_.faint_ink);
-    drawn_ = span();
 }
 
 void Plot::draw_curve(cairo_t* on, const Curve& curve, double width, double strength) const {
@@ -233,11 +238,15 @@ void Plot::draw_curve(cairo_t* on, const Curve& curve, double width, double stre
 }
 
 void Plot::draw(cairo_t* on, int x, int y) {
-    if (drawn_ != span()) draw_axes();
     cairo_save(on);
     cairo_translate(on, x, y);
-    cairo_set_source_surface(on, axes_.get(), 0, 0);
-    cairo_paint(on);
+    if (keeps_text(on)) {
+        draw_axes(on);
+    } else {
+        if (drawn_ != span()) keep_axes();
+        cairo_set_source_surface(on, axes_.get(), 0, 0);
+        cairo_paint(on);
+    }
     const double pen = std::max(1.0, type_.main / 14);
     if (frame_.smooth) draw_curve(on, rows_behind_, std::max(1.0, 0.5 * pen), 0.25);
     draw_curve(on, line_, frame_.smooth ? 1.6 * pen : pen, 1);

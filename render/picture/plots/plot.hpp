@@ -96,7 +96,8 @@ class Plot final : public SidePlot {
     void add(Curve& curve, double time, double value);
     double mean_of_period(double cycles, double value);
     void widen(double value);
-    void draw_axes();
+    void keep_axes();
+    void draw_axes(cairo_t* on);
     void draw_curve(cairo_t* on, const Curve& curve, double width, double strength) const;
     const std::string& unit(double largest);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "render/picture/base/pdf_page.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/camera/camera_path.hpp"
 #include "render/picture/container/container_drawing.hpp"
@@ -133,7 +134,9 @@ struct Renderer::Impl {
     Picture picture;             // the picture that draw() returns
 
     void draw(const Shot& frame, const std::string& playback, double film_time, Picture& into,
-              DrawTimes* times);
+              DrawTimes* times, PdfPage* page = nullptr);
+    void draw_on_page(PdfPage& page, const Shot& frame, const std::string& playback, const View& view,
+                      const Picture& drawn);
     void copy_words(Picture& into) const;
     void draw_exposed(const Shot& frame, const View& view, Picture& into, DrawStopwatch& watch);
     void draw_moment(const Shot& frame, const Shot* marked, const View& view, Picture& into,
@@ -153,12 +156,15 @@ struct Renderer::Impl {
 };
 
 void Renderer::Impl::draw(const Shot& frame, const std::string& playback, double film_time, Picture& into,
-                          DrawTimes* times) {
+                          DrawTimes* times, PdfPage* page) {
     context->make_current();
     DrawStopwatch watch(context->gl(), times);
     const View view = path.at(film_time);
     if (!started) start_from(frame);
-    overlay.write(words, frame, playback, view);
+    if (page)
+        overlay.leave_out(words);
+    else
+        overlay.write(words, frame, playback, view);
     if (ground && (path.moves() || !ground_stands)) ground->stand(view);
     ground_stands = true;
     copy_words(into);
@@ -168,10 +174,22 @@ void Renderer::Impl::draw(const Shot& frame, const std::string& playback, double
         draw_moment(frame, nullptr, view, into, watch);
     else
         draw_exposed(frame, view, into, watch);
+    if (page) return draw_on_page(*page, frame, playback, view, into);
     if (!scene.film.labels.empty())
         draw_grain_labels(scene, exaggeration.shown(frame), eye, layout, palette, into, labelled);
     overlay.lay_over(into);
     watch.lap(&DrawTimes::overlay);
+}
+
+void Renderer::Impl::draw_on_page(PdfPage& page, const Shot& frame, const std::string& playback,
+                                  const View& view, const Picture& drawn) {
+    page.paint(drawn);
+    if (!scene.film.labels.empty())
+        draw_part(page.on(), port, [&] {
+            write_grain_labels(page.on(), scene, exaggeration.shown(frame), eye, layout.type, palette,
+                               labelled);
+        });
+    overlay.draw_on(page.on(), frame, playback, view);
 }
 
 void Renderer::Impl::start_from(const Shot& frame) {
@@ -354,6 +372,11 @@ const Picture& Renderer::draw(const Shot& frame, const std::string& playback, do
 
 void Renderer::draw_into(Picture& picture, const Shot& frame, const std::string& playback, double film_time) {
     impl_->draw(frame, playback, film_time, picture, nullptr);
+}
+
+void Renderer::draw_page(PdfPage& page, const Shot& frame, const std::string& playback, double film_time) {
+    Picture alone;  // not the kept picture, which has words
+    impl_->draw(frame, playback, film_time, alone, nullptr, &page);
 }
 
 std::string Renderer::last_note() const {

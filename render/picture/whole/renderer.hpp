@@ -20,6 +20,8 @@
 
 namespace grainreel {
 
+class PdfPage;
+
 // ms that the stages of a frame take. They are measured only on demand, because measuring waits for OpenGL
 // after each stage. occlusion: the search for neighbours that shade a grain; shading: all light on grains;
 // shadow: the shadow on the ground.
@@ -51,6 +53,9 @@ class Renderer {
 
     // Draws into a picture of the caller's: an empty one, or one that this renderer has drawn into before.
     void draw_into(Picture& picture, const Shot& frame, const std::string& playback, double film_time);
+
+    // Draws the picture on a page of PDF, its words as text.
+    void draw_page(PdfPage& page, const Shot& frame, const std::string& playback, double film_time);
 
     const View& view() const;  // view of the last picture
     // Gives the film's first frame, which decides the grains' heights at the start. Without a call the first

@@ -196,7 +196,7 @@ void paint_bar(cairo_t* on, const ColourScale& scale, int x, int y, int width, i
         const double share = scale.bands() > 0 ? (i + 0.5) / width : i / (width - 1.0);
         const Colour colour = in_bytes(scale.at_share(share));
         set_colour(on, colour);
-        cairo_rectangle(on, x + i, y, 1, height);
+        cairo_rectangle(on, x + i, y, width - i, height);  // to the end, so that no seam shows in a PDF
         cairo_fill(on);
     }
     cairo_restore(on);

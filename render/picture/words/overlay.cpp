@@ -62,17 +62,16 @@ void Overlay::draw_still(const View& view) {
     const CairoContext on(cairo_create(first_.get()));
     first_part({on.get(), type_, palette_}, scene_, &view, layout_, layout_.first.width);
     still_ = blank(layout_.second, second_plates_);
-    draw_still_numbers(view);
+    const CairoContext on_still(cairo_create(still_.get()));
+    draw_still_numbers({on_still.get(), type_, palette_}, view);
     drawn_for_ = view;
     written_ = false;
     static std::atomic<std::uint64_t> numbers{0};
     still_number_ = ++numbers;
 }
 
-void Overlay::draw_still_numbers(const View& view) {
+void Overlay::draw_still_numbers(const Writer& writer, const View& view) const {
     if (!scene_.drive.present) return;
-    const CairoContext on(cairo_create(still_.get()));
-    const Writer writer{on.get(), type_, palette_};
     if (plan_.has_dial)
         dial_block(writer, scene_.drive, nullptr, plan_.radius, plan_.dial.x, plan_.dial.y, &view);
     if (!drive_lines_change(scene_.drive))
@@ -110,6 +109,42 @@ void Overlay::renew(Picture& picture, const Rectangle& part, const Draw& draw) {
     if (!layout_.plates) put(second_.get(), part, layout_.second, picture);
 }
 
+std::vector<Overlay::Changing> Overlay::changing(const Shot& frame, const std::string& playback,
+                                                 const View& view) const {
+    const std::string pace = playback_text(scene_.film, frame, playback), note = note_text(scene_, frame);
+    std::vector<Changing> all;
+    all.push_back({plan_.clock_part, clock_words(scene_, frame), [this, &frame](const Writer& writer) {
+                       clock_block(writer, scene_, frame, plan_.clock.x, plan_.clock.y);
+                   }});
+    all.push_back({plan_.caption_part, pace, [this, pace](const Writer& writer) {
+                       if (!pace.empty())
+                           writer.write(plan_.caption.x, plan_.caption.y, pace, writer.minor(),
+                                        palette_.faint_ink, plan_.caption_wrap, plan_.caption_lines);
+                   }});
+    if (plan_.note_part.height > 0)
+        all.push_back({plan_.note_part, note, [this, note](const Writer& writer) {
+                           note_block(writer, note, plan_.note.x, plan_.note.y + 0.5 * type_.gap,
+                                      plan_.note_wrap, note_lines);
+                       }});
+    if (plan_.drive_part.height > 0)
+        all.push_back(
+            {plan_.drive_part,
+             scene_.drive.present ? fmt::format("{}", fmt::join(drive_lines(scene_, frame), "\n")) : "",
+             [this, &frame, &view](const Writer& writer) {
+                 drive_block(writer, scene_, &frame, &view, plan_.drive.x, plan_.drive.y);
+             }});
+    // The hand shows the phase of the drive. Before the drive begins there is no hand.
+    const double angle = frame.time < 0 ? -1 : frame.phase;
+    const double stroke = frame.floor().place.dot(scene_.drive.direction);
+    if (plan_.has_dial)
+        all.push_back({plan_.dial_part, fmt::format("{} {}", angle, stroke),
+                       [this, &frame, &view](const Writer& writer) {
+                           dial_block(writer, scene_.drive, &frame, plan_.radius, plan_.dial.x, plan_.dial.y,
+                                      &view);
+                       }});
+    return all;
+}
+
 void Overlay::write(Picture& picture, const Shot& frame, const std::string& playback, const View& view) {
     // Axes, arrows and scale depend on the view.
     if (view.eye != drawn_for_.eye || view.forward != drawn_for_.forward || view.focal != drawn_for_.focal)
@@ -123,47 +158,44 @@ void Overlay::write(Picture& picture, const Shot& frame, const std::string& play
         put(first_.get(), {0, 0, layout_.first.width, layout_.first.height}, layout_.first, picture);
         put(still_.get(), {0, 0, layout_.second.width, layout_.second.height}, layout_.second, picture);
     }
-    const std::string clock = clock_words(scene_, frame), pace = playback_text(scene_.film, frame, playback);
-    if (!written_ || clock != clock_)
-        renew(picture, plan_.clock_part, [&](cairo_t* on) {
-            clock_block({on, type_, palette_}, scene_, frame, plan_.clock.x, plan_.clock.y);
-        });
-    if (!written_ || pace != pace_)
-        renew(picture, plan_.caption_part, [&](cairo_t* on) {
-            const Writer writer{on, type_, palette_};
-            if (!pace.empty())
-                writer.write(plan_.caption.x, plan_.caption.y, pace, writer.minor(), palette_.faint_ink,
-                             plan_.caption_wrap, plan_.caption_lines);
-        });
-    const std::string note = note_text(scene_, frame);
-    if (plan_.note_part.height > 0 && (!written_ || note != note_))
-        renew(picture, plan_.note_part, [&](cairo_t* on) {
-            note_block({on, type_, palette_}, note, plan_.note.x, plan_.note.y + 0.5 * type_.gap,
-                       plan_.note_wrap, note_lines);
-        });
-    const std::string drive =
-        scene_.drive.present ? fmt::format("{}", fmt::join(drive_lines(scene_, frame), "\n")) : "";
-    if (plan_.drive_part.height > 0 && (!written_ || drive != drive_))
-        renew(picture, plan_.drive_part, [&](cairo_t* on) {
-            drive_block({on, type_, palette_}, scene_, &frame, &view, plan_.drive.x, plan_.drive.y);
-        });
-    // The hand shows the phase of the drive. Before the drive begins there is no hand.
-    const double angle = frame.time < 0 ? -1 : frame.phase;
-    const double stroke = frame.floor().place.dot(scene_.drive.direction);
-    if (plan_.has_dial && (!written_ || angle != angle_ || stroke != stroke_))
-        renew(picture, plan_.dial_part, [&](cairo_t* on) {
-            dial_block({on, type_, palette_}, scene_.drive, &frame, plan_.radius, plan_.dial.x, plan_.dial.y,
-                       &view);
-        });
+    const std::vector<Changing> words = changing(frame, playback, view);
+    now_.resize(words.size());
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        if (written_ && words[k].now == now_[k]) continue;
+        renew(picture, words[k].part, [&](cairo_t* on) { words[k].draw({on, type_, palette_}); });
+        now_[k] = words[k].now;
+    }
     renew_plots(picture, frame);
     renew_caption(picture, frame);
     written_ = true;
-    clock_ = clock;
-    pace_ = pace;
-    note_ = note;
-    drive_ = drive;
-    angle_ = angle;
-    stroke_ = stroke;
+}
+
+void Overlay::leave_out(Picture& picture) {
+    const Rectangle all{0, 0, picture.width, picture.height};
+    copy_surface(blank_surface(all, palette_.background, scene_.film.transparent ? 0 : 1).get(), all,
+                 picture);
+    written_ = false;
+}
+
+void Overlay::draw_on(cairo_t* on, const Shot& frame, const std::string& playback, const View& view) {
+    const Writer writer{on, type_, palette_};
+    draw_part(on, layout_.first, [&] {
+        if (layout_.plates) paint_plates(on, first_plates_, type_, palette_);
+        first_part(writer, scene_, &view, layout_, layout_.first.width);
+    });
+    draw_part(on, layout_.second, [&] {
+        if (layout_.plates) paint_plates(on, second_plates_, type_, palette_);
+        draw_still_numbers(writer, view);
+        for (const Changing& words : changing(frame, playback, view)) words.draw(writer);
+        for (std::size_t k = 0; k < plots_.size(); ++k) {
+            plots_[k]->take(frame);
+            plots_[k]->draw(on, plan_.plots[k].x, plan_.plots[k].y);
+        }
+    });
+    if (layout_.caption.height > 0)
+        draw_part(on, layout_.caption, [&] {
+            draw_caption(writer, captions_, caption_at(scene_.film, frame), layout_.caption.width);
+        });
 }
 
 void Overlay::renew_caption(Picture& picture, const Shot& frame) {
@@ -230,10 +262,8 @@ std::optional<Placed> placed(const FilmLabel& label, const State& frame, const V
 
 }  // namespace
 
-void draw_grain_labels(const FilmedScene& scene, const State& frame, const View& view,
-                       const PictureLayout& layout, const Palette& palette, Picture& picture,
-                       std::vector<char>& found) {
-    const TypeScale& type = layout.type;
+void write_grain_labels(cairo_t* on, const FilmedScene& scene, const State& frame, const View& view,
+                        const TypeScale& type, const Palette& palette, std::vector<char>& found) {
     const TextStyle style{type.main, false};
     std::vector<Placed> all;
     found.resize(scene.film.labels.size());
@@ -247,31 +277,33 @@ void draw_grain_labels(const FilmedScene& scene, const State& frame, const View&
         one->box.y = std::min(one->box.y, std::max(0, view.port.height - one->box.height));
         all.push_back(*one);
     }
-    if (all.empty()) return;
-    const Rectangle port{0, 0, view.port.width, view.port.height};
-    const CairoSurface surface = blank_surface(port, palette.background, 0);
     std::vector<WordBox> boxes;
-    for (const Placed& one : all)
+    for (const Placed& one : all) {
         boxes.push_back({static_cast<double>(one.box.x), static_cast<double>(one.box.y),
                          static_cast<double>(one.box.width), static_cast<double>(one.box.height)});
-    std::vector<Rectangle> laid = plates_around(boxes, type, port);
+        // The line goes from the grain's rim to the nearer side of the plate.
+        const double end_x = one.box.x > one.x ? one.box.x : one.box.x + one.box.width;
+        const double end_y = one.box.y + 0.5 * one.box.height;
+        const double length = std::max(1e-9, std::hypot(end_x - one.x, end_y - one.y));
+        const double rim = std::min(1.0, one.radius / length);
+        cairo_move_to(on, one.x + rim * (end_x - one.x), one.y + rim * (end_y - one.y));
+        cairo_line_to(on, end_x, end_y);
+    }
+    set_colour(on, palette.ink);
+    cairo_set_line_width(on, std::max(1.0, type.main / 14));
+    cairo_stroke(on);
+    paint_plates(on, plates_around(boxes, type, {0, 0, view.port.width, view.port.height}), type, palette);
+    for (const Placed& one : all) draw_text(on, one.box.x, one.box.y, one.label->text, style, palette.ink);
+}
+
+void draw_grain_labels(const FilmedScene& scene, const State& frame, const View& view,
+                       const PictureLayout& layout, const Palette& palette, Picture& picture,
+                       std::vector<char>& found) {
+    const Rectangle port{0, 0, view.port.width, view.port.height};
+    const CairoSurface surface = blank_surface(port, palette.background, 0);
     {
         const CairoContext on(cairo_create(surface.get()));
-        for (const Placed& one : all) {
-            // The line goes from the grain's rim to the nearer side of the plate.
-            const double end_x = one.box.x > one.x ? one.box.x : one.box.x + one.box.width;
-            const double end_y = one.box.y + 0.5 * one.box.height;
-            const double length = std::max(1e-9, std::hypot(end_x - one.x, end_y - one.y));
-            const double rim = std::min(1.0, one.radius / length);
-            cairo_move_to(on.get(), one.x + rim * (end_x - one.x), one.y + rim * (end_y - one.y));
-            cairo_line_to(on.get(), end_x, end_y);
-        }
-        set_colour(on.get(), palette.ink);
-        cairo_set_line_width(on.get(), std::max(1.0, type.main / 14));
-        cairo_stroke(on.get());
-        paint_plates(on.get(), laid, type, palette);
-        for (const Placed& one : all)
-            draw_text(on.get(), one.box.x, one.box.y, one.label->text, style, palette.ink);
+        write_grain_labels(on.get(), scene, frame, view, layout.type, palette, found);
     }
     lay_plates(surface.get(), {port}, layout.port, picture);
 }

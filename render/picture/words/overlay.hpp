@@ -5,6 +5,7 @@
 
 #include <cairo.h>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +32,10 @@ class Overlay {
     // Lays the plates, if there are any, over a picture that is drawn.
     void lay_over(Picture& picture) const;
 
+    // In place of both: the picture gets its background alone, and all words are drawn on a page of PDF.
+    void leave_out(Picture& picture);
+    void draw_on(cairo_t* on, const Shot& frame, const std::string& playback, const View& view);
+
     // Picture::still and Picture::moving, as far as the gutters are concerned.
     std::uint64_t still() const { return still_number_; }
     std::vector<Rectangle> moving() const;
@@ -38,7 +43,14 @@ class Overlay {
   private:
     CairoSurface blank(const Rectangle& part, const std::vector<Rectangle>& plates) const;
     void draw_still(const View& view);
-    void draw_still_numbers(const View& view);
+    void draw_still_numbers(const Writer& writer, const View& view) const;
+    // Words of the second gutter that change. `now`: what they say or show, to see whether it has changed.
+    struct Changing {
+        Rectangle part;
+        std::string now;
+        std::function<void(const Writer&)> draw;
+    };
+    std::vector<Changing> changing(const Shot& frame, const std::string& playback, const View& view) const;
     void make_plots();
     // Puts a part of a gutter's surface where it belongs in the picture.
     void put(cairo_surface_t* from, const Rectangle& part, const Rectangle& gutter, Picture& picture) const;
@@ -60,9 +72,8 @@ class Overlay {
     View drawn_for_;
     bool written_ = false;
     std::uint64_t still_number_ = 0;
-    // The words and the dial's values that are in the picture now.
-    std::string clock_, pace_, note_, drive_, caption_;
-    double angle_ = 0, stroke_ = 0;
+    std::vector<std::string> now_;  // what the words that change say in the picture
+    std::string caption_;
 };
 
 // Words beside single grains, [[film.label]]: each label stands on a plate to the right of its grain, with a
@@ -72,6 +83,10 @@ class Overlay {
 void draw_grain_labels(const FilmedScene& scene, const State& frame, const View& view,
                        const PictureLayout& layout, const Palette& palette, Picture& picture,
                        std::vector<char>& found);
+
+// The same on a page, whose origin is the corner of the port.
+void write_grain_labels(cairo_t* on, const FilmedScene& scene, const State& frame, const View& view,
+                        const TypeScale& type, const Palette& palette, std::vector<char>& found);
 
 // "label \"big\": no grain has the id 900 ..."; empty where all labels have had their grain.
 std::string missing_labels(const FilmedScene& scene, const std::vector<char>& found);

@@ -243,7 +243,7 @@ const KeyTable<Film>& picture_table() {
             .usually([](Film& film, const Scene& scene) { film.title = scene.title; }),
         bound_by<Film>(
             choice("lang", all_of(language_words()), literal("\"en\""),
-                   "Language of the fixed words of films; [film.wording] has your own."),
+                   "Language of the fixed words of films and pages; [film.wording] has your own."),
             [](Document& document, const Scene&, const std::string& path, Film& film) {
                 const auto word = document.text(path);
                 for (const auto& [said, language] : language_words())

@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace test;
 using testing::HasSubstr;
+using testing::Not;
 
 nlohmann::json record_of(const fs::path& run) {
     return nlohmann::json::parse(text_of(run / "run.json"));
@@ -274,6 +275,63 @@ TEST_F(CompareProgram, CaptionsOfOneValueAreLeftOutBesideOthers) {
         drawn("told.toml", "own", {"--set", "film.caption=[{from=0,text=\"Two drives\"}]"});
     EXPECT_THAT(nothing, Not(HasSubstr("film.caption")));
     EXPECT_NE(own, told);
+}
+
+TEST_F(CompareProgram, CaptionsThatAskStayBesideVariedValues) {
+    write_text(here / "asks.toml",
+               text_of(here / "weak.toml") + "[[film.caption]]\nfrom = \"0 s\"\ntext = \"Do they fly?\"\n");
+    const auto still = [&](const std::string& scene) {
+        const Ended ended = program(
+            {"compare", scene, "--vary", "drive.g_level=1.2,3", "--at", "0.05", "--out", scene + ".d"});
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        EXPECT_THAT(ended.err, Not(HasSubstr("film.caption")));
+        const std::string png = text_of(here / (scene + ".d") / "still-0.050s.png");
+        return png.substr(png.find("IDAT"));
+    };
+    EXPECT_NE(still("asks.toml"), still("weak.toml"));
+}
+
+TEST_F(CompareProgram, LeavesThePageOfItsRunsWithTheirFilm) {
+    const Ended made = program({"compare", "weak.toml", "strong.toml", "--out", "both"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const std::string page = text_of(here / "both/report.html");
+    EXPECT_THAT(page, HasSubstr("id=\"film-all\""));
+    EXPECT_THAT(page, HasSubstr("id=\"film-bytes-all\""));
+    EXPECT_THAT(page, HasSubstr("id=\"bed-bytes-1\""));
+    EXPECT_THAT(page, Not(HasSubstr("has no film and no poster")));
+    EXPECT_EQ(record_of(here / "both")["status"], "complete");
+    // The table says which moment each frame shows, so that beds and film go together.
+    const std::string times = text_of(here / "both/film_times.csv");
+    EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), 1 + frames_of_film);
+
+    fs::remove(here / "both/report.html");
+    const Ended again = program({"report", "both"});
+    ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(again.out, "both/report.html\n");
+    EXPECT_TRUE(text_of(here / "both/report.html") == page);
+
+    fs::remove_all(here / "both/strong");
+    const Ended gone = program({"report", "both"});
+    EXPECT_EQ(gone.status, 2);
+    EXPECT_THAT(gone.err, tells({"both/strong", "no longer there"}));
+    EXPECT_EQ(program({"compare", "weak.toml", "strong.toml", "--out", "none", "--no-report"}).status, 0);
+    EXPECT_FALSE(fs::exists(here / "none/report.html"));
+}
+
+// A length that is asked for holds for the film of all.
+TEST_F(CompareProgram, HasTheLengthThatIsAskedFor) {
+    const Ended made = program(
+        {"compare", "weak.toml", "strong.toml", "--out", "long", "--set", "film.length=2 s", "--no-report"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_NEAR(static_cast<double>(decoded_pictures(here / "long/movie.mp4")), 60, 2);
+}
+
+TEST_F(CompareProgram, MakesAPdfOfOneMoment) {
+    const Ended made =
+        program({"compare", "weak.toml", "strong.toml", "--at", "0.05", "--out", "print", "--pdf"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_TRUE(text_of(here / "print/still-0.050s.pdf").starts_with("%PDF-"));
+    EXPECT_FALSE(fs::exists(here / "print/report.html"));
 }
 
 TEST_F(CompareProgram, AllEndWithTheShortest) {

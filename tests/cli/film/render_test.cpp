@@ -198,6 +198,20 @@ TEST_F(RenderProgram, AtDrawsTheNearestKeptFrameWhereItMayNotBringBack) {
     EXPECT_EQ(text_of(here / "run-0.150s.png"), text_of(here / "run-0.150s-2.png"));
 }
 
+TEST_F(RenderProgram, AStillCanBeAPdf) {
+    short_run();
+    const Ended ended = program({"render", "run", "--at", "0.15 s", "--pdf", "--width-mm", "85"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.out, "run-0.150s.pdf\n");
+    const std::string pdf = text_of(here / "run-0.150s.pdf");
+    EXPECT_TRUE(pdf.starts_with("%PDF-"));
+    for (const char* part : {"/FontFile", "/ToUnicode", "/Width 1004"})  // 85 mm at 300 dpi
+        EXPECT_NE(pdf.find(part), std::string::npos) << part;
+    // A name that ends in .pdf says it too.
+    EXPECT_EQ(program({"render", "run", "--at", "0.15 s", "--out", "x.pdf", "--width-mm", "85"}).status, 0);
+    EXPECT_TRUE(text_of(here / "x.pdf") == pdf);
+}
+
 // A still of a moment that the film shows is the same as the film's picture, wherever its grains come from.
 TEST_F(RenderProgram, AtDrawsAnyMoment) {
     run("[[film.segment]]\nplayback = 0.5\nexposure = \"10 ms\"\n", {"--frames"});
@@ -455,7 +469,10 @@ TEST_F(RenderProgram, MistakesAreRefusedBeforeAnythingIsWritten) {
         {{"render", "run", "--out", "empty/..", "--force"}, "--out"},
         {{"render", "run", "--at", "0", "--out", "taken.png"}, "--out taken.png: exists already"},
         {{"render", "run", "--at", "0", "--out", "gone/x.png"}, "there is no folder gone"},
-        {{"render", "run", "--at", "0", "--out", "x.jpg"}, "ends in .png"},
+        {{"render", "run", "--at", "0", "--out", "x.jpg"}, "ends in .png or .pdf"},
+        {{"render", "run", "--at", "0", "--pdf", "--out", "x.png"},
+         "with --pdf, name a file that ends in .pdf"},
+        {{"render", "run", "--pdf"}, "--pdf: is for one picture; add --at"},
     };
     const auto entries = entries_of(here.path()), of_run = entries_of(here / "run");
     for (const auto& [words, part] : cases) {

@@ -1,5 +1,6 @@
 // Tests of walls of other programs with colours, pictures of single frames, and the copies in the cache.
 #include <fstream>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
@@ -45,6 +46,48 @@ TEST_F(ForeignWalls, HaveTheStressAndWearOfTheirFile) {
         EXPECT_THAT(meshes->front().pressure, testing::ElementsAre(100 * k, 200 * k));
         EXPECT_THAT(meshes->front().wear, testing::ElementsAre(0, k));
     }
+}
+
+// Walls of a folder are named, and have their files' names; walls in mm are met with the option that helps.
+TEST_F(ForeignWalls, AreNamedAndDoubtedWhereTheyAreInMm) {
+    const fs::path folder = here / "both";
+    fs::create_directories(folder);
+    fs::copy_file(here / "bed.dump", folder / "bed.dump");
+    std::string plate = "solid\n";
+    for (const char* corners : {"0 0 0 50000 0 0 50000 40000 0", "0 0 0 50000 40000 0 0 40000 0"}) {
+        double p[9];
+        std::istringstream numbers(corners);
+        for (double& one : p) numbers >> one;
+        plate += "facet normal 0 0 1\nouter loop\n";
+        for (int k = 0; k < 3; ++k)
+            plate += fmt::format("vertex {} {} {}\n", p[3 * k], p[3 * k + 1], p[3 * k + 2]);
+        plate += "endloop\nendfacet\n";
+    }
+    write_old_text(folder / "plate_mm.stl", plate + "endsolid\n");
+    const Ended read = program({"render", "both", "--at", "0", "--out", "mm.png"});
+    ASSERT_EQ(read.status, 0) << read.err;
+    EXPECT_THAT(read.err, tells({"walls are taken from plate_mm.stl", "--walls"}));
+    EXPECT_THAT(read.err, tells({"plate_mm", "m large", "--walls-scale 0.001"}));
+    const Ended scaled = program({"render", "both", "--at", "0", "--out", "m.png", "--walls",
+                                  "both/plate_mm.stl", "--walls-scale", "1e-6"});
+    ASSERT_EQ(scaled.status, 0) << scaled.err;
+    EXPECT_THAT(scaled.err, testing::Not(HasSubstr("large")));
+}
+
+// A page of another program's files has a film, but nothing that only the engine that computed them knows.
+TEST_F(ForeignWalls, PageHasAFilmAndNoMethodsOfOurs) {
+    const Ended made = program({"report", "bed.dump", "--time-step", "1e-5", "--density", "2500 kg/m3"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const std::string page = text_of(here / "bed.dump-report.html");
+    EXPECT_THAT(page, HasSubstr("id=\"film-bytes\""));
+    EXPECT_THAT(page, HasSubstr("class=\"poster\""));
+    EXPECT_THAT(page, HasSubstr("\"name\":\"kinetic_J\""));
+    for (const char* ours : {"class=\"ended\"", "What was computed", "To cite", "Where it comes from",
+                             "without a drive", "The run has no film"})
+        EXPECT_THAT(page, testing::Not(HasSubstr(ours)));
+    const Ended bare = program({"report", "bed.dump", "--time-step", "1e-5", "--no-film"});
+    ASSERT_EQ(bare.status, 0) << bare.err;
+    EXPECT_THAT(text_of(here / "bed.dump-report.html"), testing::Not(HasSubstr("id=\"film-bytes\"")));
 }
 
 TEST_F(ForeignWalls, WithoutStressAreNotColoured) {
