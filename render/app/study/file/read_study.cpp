@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
 #include <optional>
 
 #include "engine/base/error.hpp"
@@ -12,6 +15,7 @@
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/scene/text/toml_text.hpp"
 #include "render/app/study/file/variations.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/live_text.hpp"
@@ -28,7 +32,8 @@ const ChoiceWords<Reduction::Kind> reduction_words{{"end", Reduction::Kind::end}
                                                    {"first-passage", Reduction::Kind::first_passage},
                                                    {"max", Reduction::Kind::max},
                                                    {"min", Reduction::Kind::min},
-                                                   {"deviation", Reduction::Kind::deviation}};
+                                                   {"deviation", Reduction::Kind::deviation},
+                                                   {"share", Reduction::Kind::share}};
 
 void read_window(Document& document, const FilmedScene& scene, const std::string& table,
                  Reduction& reduction) {
@@ -45,9 +50,8 @@ void read_window(Document& document, const FilmedScene& scene, const std::string
 void read_threshold(Document& document, const std::string& table, const MeasureColumn& column,
                     Reduction& reduction) {
     const std::string path = table + ".threshold";
-    const bool wanted =
-        reduction.kind == Reduction::Kind::crossing || reduction.kind == Reduction::Kind::first_passage;
-    if (!wanted) return document.refuse(path, "only 'crossing' and 'first-passage' have a threshold");
+    if (!reduction.has_threshold())
+        return document.refuse(path, "only 'crossing', 'first-passage' and 'share' have a threshold");
     if (!document.has(path)) document.fail_missing(path);
     reduction.threshold = *document.quantity(path, column.dimension);
 }
@@ -56,6 +60,7 @@ void read_threshold(Document& document, const std::string& table, const MeasureC
 std::string unit_of(const MeasureColumn& column, Reduction::Kind kind) {
     const std::string of_column = text_of(column.dimension).unit;
     if (kind == Reduction::Kind::crossing || kind == Reduction::Kind::first_passage) return "s";
+    if (kind == Reduction::Kind::share) return "";
     if (kind == Reduction::Kind::slope) return of_column + "/s";
     return of_column == "1" ? "" : of_column;
 }
@@ -76,6 +81,12 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
         if (word == how) measure.reduction.kind = kind;
     measure.name = document.text(table + ".name").value_or(name + "_" + how);
     measure.label = document.text(table + ".label").value_or(fmt::format("{}, {}", column->label, how));
+    if (measure.reduction.kind == Reduction::Kind::share) measure.average = SeedAverage::share;
+    if (document.text(table + ".average") == "median") {
+        if (measure.average == SeedAverage::share)
+            document.fail(table + ".average", "is of no use for 'share', a share of the seeds; leave it out");
+        measure.average = SeedAverage::median;
+    }
     measure.unit = unit_of(*column, measure.reduction.kind);
     measure.place = document.place(table + ".column");
     for (const StudyMeasure& other : study.measures)
@@ -152,6 +163,57 @@ void read_reference(Document& document, const Study& study, const std::string& t
         document.text(table + ".reference_label").value_or(chart.reference->filename().string());
 }
 
+// Two numbers in the unit of an axis: [0, 12], or ["0 mm", "12 mm"].
+std::optional<std::array<double, 2>> read_axis_range(Document& document, const std::string& path,
+                                                     const std::string& unit, bool logarithmic) {
+    if (!document.has(path)) return std::nullopt;
+    std::vector<double> ends;
+    for (const std::string& text : document.value_list(path)) {
+        const auto value = written_number(text);
+        if (!value || !std::isfinite(value->number) || (!value->unit.empty() && value->unit != unit))
+            document.fail(path, fmt::format("must be two numbers{}, such as [0, 1]",
+                                            unit.empty() ? "" : " in " + unit + ", the axis' unit"));
+        ends.push_back(value->number);
+    }
+    if (ends.size() != 2 || !(ends[0] < ends[1]) || (logarithmic && ends[0] <= 0))
+        document.fail(path,
+                      fmt::format("must be two numbers, the smaller one first{}; write for example [{}, 10]",
+                                  logarithmic ? " and larger than 0" : "", logarithmic ? 1 : 0));
+    return {{ends[0], ends[1]}};
+}
+
+void read_x_per(Document& document, const Variation& x, const std::string& path, StudyChart& chart) {
+    if (!document.has(path)) return;
+    if (!x.numeric) document.fail(path, "divides the numbers along x, but x has words; leave it out");
+    const auto value = written_number(document.value(path));
+    if (!value || !(value->number > 0) || !std::isfinite(value->number) ||
+        (!value->unit.empty() && value->unit != x.unit))
+        document.fail(path, fmt::format("must be a number larger than 0{}, by which x is divided",
+                                        x.unit.empty() ? "" : " in " + x.unit + ", the axis' unit"));
+    chart.x_per = value->number;
+    chart.x_per_words = fmt::format("{:.6g}{}{}", value->number, x.unit.empty() ? "" : " ", x.unit);
+}
+
+// How the chart looks: labels, ranges, letters.
+void read_look(Document& document, const Study& study, const std::string& table, StudyChart& chart) {
+    const Variation& x = study.variations[chart.x];
+    chart.x_label = document.text(table + ".x_label").value_or("");
+    chart.y_label = document.text(table + ".y_label").value_or("");
+    read_x_per(document, x, table + ".x_per", chart);
+    if (document.has(table + ".x_range") && !x.numeric)
+        document.fail(table + ".x_range", "is of numbers, but x has words; leave it out");
+    chart.x_range =
+        read_axis_range(document, table + ".x_range", chart.x_per_words.empty() ? x.unit : "", chart.log_x);
+    chart.y_range = read_axis_range(document, table + ".y_range", study.measures[chart.y].unit, chart.log_y);
+    chart.series = document.name_list(table + ".series");
+    if (!chart.series.empty()) chart.series_place = document.place(table + ".series");
+    chart.font = document.text(table + ".font").value_or(chart.font);
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == ' ' || c == '-'; };
+    if (chart.font.empty() || !std::all_of(chart.font.begin(), chart.font.end(), is_plain))
+        document.fail(table + ".font", "must be the name of a font, of letters, digits and spaces");
+    chart.letters = document.quantity(table + ".letters").value_or(chart.letters);
+}
+
 void add_chart(const Document& document, const std::string& table, StudyChart chart, Study& study) {
     for (const StudyChart& other : study.charts)
         if (other.name == chart.name)
@@ -175,6 +237,7 @@ void read_chart(Document& document, const std::string& table, Study& study) {
     chart.log_x = logarithmic == "x" || logarithmic == "both";
     chart.log_y = logarithmic == "y" || logarithmic == "both";
     check_axis(document, study, table, chart);
+    read_look(document, study, table, chart);
     read_reference(document, study, table, chart);
     add_chart(document, table, std::move(chart), study);
 }
@@ -239,6 +302,35 @@ void read_scene_of(Document& document, Study& study) {
     study.scene_text = load_scene_file(study.scene);
 }
 
+// Finds the measure that `until` names, and the wanted value: "angle = 24".
+void complete_search(Study& study) {
+    StudySearch& search = *study.search;
+    const auto fail = [&](const std::string& what) {
+        throw UserError(fmt::format("{}: 'until' is \"{}\", {}", search.place, excerpt(search.words), what));
+    };
+    if (study.variations.size() != 1)
+        fail("but a search has one [[vary]] and no [[variant]]; take the others out");
+    const auto trimmed = [](std::string text) {
+        text.erase(0, text.find_first_not_of(' '));
+        return text.erase(text.find_last_not_of(' ') + 1);
+    };
+    const std::size_t equals = search.words.find('=');
+    if (equals == std::string::npos) fail("but must be a measure and its value, such as \"angle = 24\"");
+    const std::string name = trimmed(search.words.substr(0, equals));
+    const auto value = written_number(quoted(trimmed(search.words.substr(equals + 1))));
+    std::vector<std::string> names;
+    for (const StudyMeasure& measure : study.measures) names.push_back(measure.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        fail(fmt::format("but there is no [[measure]] \"{}\"; there are {}", excerpt(name),
+                         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+    search.measure = static_cast<std::size_t>(found - names.begin());
+    const std::string& unit = study.measures[search.measure].unit;
+    if (!value || !std::isfinite(value->number) || (!value->unit.empty() && value->unit != unit))
+        fail(fmt::format("but the value must be a number{}", unit.empty() ? "" : " in " + unit));
+    search.wanted = value->number;
+}
+
 }  // namespace
 
 Study read_study(const std::filesystem::path& file) {
@@ -255,6 +347,7 @@ Study read_study(const std::filesystem::path& file) {
     for (std::size_t i = 0; i < sets.size(); ++i)
         study.sets.push_back({sets[i], document.place(fmt::format("set[{}]", i))});
     study.seeds = read_seeds(document, "seeds");
+    study.one_stiffness = document.text("stiffness").value_or("shared") == "shared";
     read_variants(document, study);
     for (std::size_t i = 0; i < document.size("vary"); ++i)
         read_variation(document, fmt::format("vary[{}]", i), study);
@@ -264,6 +357,7 @@ Study read_study(const std::filesystem::path& file) {
     const FilmedScene scene = longest_scene(study);
     for (std::size_t i = 0; i < document.size("measure"); ++i)
         read_measure(document, scene, fmt::format("measure[{}]", i), study);
+    if (study.search) complete_search(study);
     for (std::size_t i = 0; i < document.size("chart"); ++i)
         read_chart(document, fmt::format("chart[{}]", i), study);
     if (document.size("chart") == 0) add_usual_charts(study);
@@ -289,6 +383,10 @@ Keys top_level() {
             entry("seeds", KeyKind::seeds, note("the scene's one"),
                   "Each setting is run with so many seeds, 1, 2, 3 ..., or with the seeds of a list."),
             Dimension::number, {0, largest_seed, false, false}),
+        choice(
+            "stiffness", {"shared", "own"}, literal("\"shared\""),
+            "Where the plan chooses the stiffness of a contact: that of the stiffest member for all, so that "
+            "all are of one material, or for each its own."),
     };
 }
 
@@ -318,6 +416,12 @@ Keys of_vary() {
         integer("vary[].count", 2, static_cast<double>(most_values), note("none"),
                 "So many values, both ends included, or:"),
         entry("vary[].by", KeyKind::value, note("none"), "From one value to the next."),
+        entry(
+            "vary[].until", KeyKind::text, note("none"),
+            "Finds the value between `from` and `to` at which a measure has this value, `\"angle = 24\"`, by "
+            "bisection."),
+        entry("vary[].within", KeyKind::value, note("required with `until`"),
+              "How narrow the bracket of that value is to become."),
         choice("vary[].spacing", {"linear", "logarithmic"}, literal("\"linear\""),
                "Equal distances, or equal ratios (with `count`)."),
     };
@@ -328,8 +432,11 @@ Keys of_measure() {
         entry("measure[].column", KeyKind::text, required(),
               "A column of measures.csv, with or without its unit: `height_difference`, `kinetic`."),
         choice("measure[].reduce",
-               {"end", "mean", "slope", "crossing", "first-passage", "max", "min", "deviation"}, required(),
-               "How the column becomes one number."),
+               {"end", "mean", "slope", "crossing", "first-passage", "max", "min", "deviation", "share"},
+               required(), "How the column becomes one number."),
+        choice("measure[].average", {"mean", "median"}, literal("\"mean\""),
+               "What the seeds of a setting are joined to. The median is known while fewer than half of the "
+               "passages did not come up."),
         entry("measure[].name", KeyKind::text, note("`COLUMN_REDUCE`"),
               "Its column in study.csv, and what charts name it by."),
         entry("measure[].label", KeyKind::text, note("by column and `reduce`"),
@@ -338,8 +445,8 @@ Keys of_measure() {
                  "Rows before that time do not count."),
         quantity("measure[].to", Dimension::time, positive, note("the run's end"),
                  "Rows after that time do not count."),
-        quantity("measure[].threshold", Dimension::number, any, note("required for crossing, first-passage"),
-                 "In the column's unit."),
+        quantity("measure[].threshold", Dimension::number, any,
+                 note("required for crossing, first-passage, share"), "In the column's unit."),
     };
 }
 
@@ -351,6 +458,22 @@ Keys of_chart() {
         entry("chart[].name", KeyKind::text, note("that of `y`"), "Name of its files."),
         entry("chart[].title", KeyKind::text, note("none"), "Above the chart."),
         choice("chart[].logarithmic", {"x", "y", "both", "none"}, literal("\"none\""), "Which axes are."),
+        entry("chart[].x_label", KeyKind::text, note("that of the key"), "What stands below the x axis."),
+        entry("chart[].y_label", KeyKind::text, note("that of the measure"),
+              "What stands beside the y axis."),
+        entry("chart[].x_range", KeyKind::value_list, note("by the points"),
+              "Where the x axis begins and ends, in its unit: `[0, 6]`."),
+        entry("chart[].y_range", KeyKind::value_list, note("by the points"), "The same for the y axis."),
+        entry(
+            "chart[].x_per", KeyKind::value, note("none"),
+            "x is divided by this value, in the unit of the key: `\"2 mm\"` makes d/d0 of d. A reference has "
+            "x divided already."),
+        entry("chart[].series", KeyKind::name_list, note("all"),
+              "Which series are drawn, in this order, by the names that the legend has: `[\"d of nut = 9 "
+              "mm\"]`."),
+        entry("chart[].font", KeyKind::text, literal("\"DejaVu Sans\""), "The font of its letters."),
+        quantity("chart[].letters", Dimension::number, {4, 24, false, false}, literal("8"),
+                 "Height of its letters in points, on paper; on the screen they grow with it."),
         entry("chart[].reference", KeyKind::text, note("none"),
               "A CSV file of points to be drawn on it, published ones or one's own: x, y and, when known, "
               "the error of y. "
