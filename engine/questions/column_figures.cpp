@@ -94,7 +94,10 @@ Answer in_one(const StoredRun& run, const ColumnsRequest& request) {
         means.rows.push_back({column, counted_cell(mean.rows), known(mean.value), known(mean.half_width),
                               known(all.deviation), known(all.least), known(all.most),
                               known(rows.values.back())});
-        means.row_dimensions.push_back(dimension);
+        if (request.columns.size() > 1)
+            means.row_dimensions.push_back(dimension);
+        else
+            for (std::size_t k = 2; k < means.columns.size(); ++k) means.columns[k].dimension = dimension;
         add_note(answer, column, mean, "mean");
         if (!request.slope) continue;
         const Estimate slope = slope_estimate(rows.times, rows.values);

@@ -83,11 +83,17 @@ std::optional<Discharge> discharge_of(const std::vector<double>& times, const st
     const std::size_t begin = first_with(gone, 0.1 * flow.mass), end = first_with(gone, 0.7 * flow.mass);
     if (end < begin + 2 || !(times[end] > times[begin])) return std::nullopt;
     flow.from = times[begin], flow.to = times[end];
-    const auto part = [&](const std::vector<double>& values) {
-        return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                                   values.begin() + static_cast<std::ptrdiff_t>(end) + 1);
-    };
-    flow.rate = slope_estimate(part(times), part(gone));
+    // Grains leave in bursts, so the mass that is out is looked at in equal times.
+    constexpr std::size_t looks = 2 * kMostBatches;
+    std::vector<double> moments, masses;
+    for (std::size_t i = 0; i <= looks; ++i) {
+        moments.push_back(flow.from +
+                          (flow.to - flow.from) * static_cast<double>(i) / static_cast<double>(looks));
+        const auto after = std::upper_bound(times.begin(), times.end(), moments.back());
+        masses.push_back(
+            gone[static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, after - times.begin()) - 1)]);
+    }
+    flow.rate = slope_estimate(moments, masses);
     if (!(all > 0)) return flow;
     constexpr double empty = 0.99;
     if (const std::size_t last = first_with(gone, empty * all); last < times.size())

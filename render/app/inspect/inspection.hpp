@@ -34,6 +34,7 @@ struct InspectRequest {
     std::optional<std::int64_t> grain;  // id of a grain
     std::optional<std::string> wall, where, profile, slice, histogram;
     std::optional<std::string> steady;  // name of a column of measures.csv
+    std::string fields;                 // grid of the means of fields: kept, rz; empty: not asked
     bool discharge = false;             // rate of the outflow
     bool parameters = false;            // the table of all parameters
     ColumnsRequest columns;             // figures of columns of measures.csv; no column: not asked
@@ -52,7 +53,9 @@ struct InspectRequest {
     bool json = false, csv = false;  // how the answer is printed
 
     // Whether the question is to the whole run and not to a moment.
-    bool of_columns() const { return steady || discharge || parameters || !columns.columns.empty(); }
+    bool of_columns() const {
+        return steady || discharge || parameters || !fields.empty() || !columns.columns.empty();
+    }
     bool series() const { return over_time || every.has_value(); }
     bool draws() const { return !picture.empty() || !pixel.empty(); }
 };

@@ -136,10 +136,13 @@ class Inspect final : public Verb {
         if (asks_.of_columns() && (!asks_.picture.empty() || asks_.average || asks_.moment.at ||
                                    asks_.moment.frame || asks_.moment.cycle))
             throw UserError(fmt::format("{}: is of the whole run; leave moment, mean and picture out",
-                                        asks_.steady       ? "--steady"
-                                        : asks_.discharge  ? "--discharge"
-                                        : asks_.parameters ? "--parameters"
-                                                           : "--measure"));
+                                        asks_.steady           ? "--steady"
+                                        : asks_.discharge      ? "--discharge"
+                                        : asks_.parameters     ? "--parameters"
+                                        : asks_.fields.empty() ? "--measure"
+                                                               : "--fields"));
+        if (windowed_ && asks_.columns.columns.empty() && asks_.fields.empty())
+            throw UserError("--window: says which rows or records count; add --measure or --fields");
         if (asks_.average && !asks_.pixel.empty())
             throw UserError("--average: --pixel is of one picture, so there is no mean; leave one out");
         if (gl_given_ && asks_.picture.empty())
@@ -197,6 +200,12 @@ class Inspect final : public Verb {
                             "Whether this column of measures.csv is steady: where its transient ends, and "
                             "whether it drifts after that")
                 ->type_name("COLUMN"),
+            parser
+                .add_option("--fields", asks_.fields,
+                            "Means of fields.nc in a --window: on its own grid (kept), or over rings about "
+                            "the axis (rz), with the turnover time of the flow")
+                ->type_name("GRID")
+                ->check(CLI::IsMember({"kept", "rz"})),
             parser.add_flag("--parameters", asks_.parameters,
                             "All parameters of the run, with what the plan chose, as a table"),
             parser.add_flag(
@@ -244,10 +253,13 @@ class Inspect final : public Verb {
         CLI::Option* in_window =
             parser
                 .add_option_function<std::string>(
-                    "--window", [window](const std::string& text) { window("--window", text); },
-                    "With --measure: only rows between these times, as in 0.2s..0.8s [all]")
-                ->type_name("FROM..TO")
-                ->needs(measure);
+                    "--window",
+                    [this, window](const std::string& text) {
+                        windowed_ = true;
+                        window("--window", text);
+                    },
+                    "With --measure or --fields: only what lies between these times, as in 0.2s..0.8s [all]")
+                ->type_name("FROM..TO");
         parser
             .add_option_function<std::string>(
                 "--slope",
@@ -276,7 +288,7 @@ class Inspect final : public Verb {
     }
 
     InspectRequest asks_;
-    bool gl_given_ = false;
+    bool gl_given_ = false, windowed_ = false;
 };
 
 }  // namespace

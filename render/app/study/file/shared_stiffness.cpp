@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -24,32 +25,29 @@ struct KindOfContact {
     bool chosen = true;  // by the plan, in all settings
     double least = 0, most = 0;
     std::size_t stiffest = 0;  // number of the setting
-
-    bool differs() const { return chosen && most > least * (1 + 1e-9); }
+    std::size_t settings = 0;  // in so many it is there
 };
 
 class KindsOfContact {
   public:
-    void add_setting(std::size_t number, const Scene& scene, const Plan& plan) {
-        std::size_t kind = 0;
+    void add_setting(const Scene& scene, const Plan& plan) {
         const std::size_t count = scene.species.size();
         for (std::size_t a = 0; a < count; ++a) {
             for (std::size_t b = a; b < count; ++b)
-                add(kind++, number, {scene.species[a].name, scene.species[b].name}, scene.between(a, b),
-                    plan.between(a, b));
-            add(kind++, number, {scene.species[a].name, "wall"}, scene.contact.wall[a], plan.wall[a]);
+                add({scene.species[a].name, scene.species[b].name}, scene.between(a, b), plan.between(a, b));
+            add({scene.species[a].name, "wall"}, scene.contact.wall[a], plan.wall[a]);
         }
         for (std::size_t k = 0; k < scene.contact.mesh.size(); ++k)
-            add(kind++, number, {scene.species[k % count].name, scene.meshes[k / count].name},
-                scene.contact.mesh[k], plan.mesh[k]);
-        first_ = false;
+            add({scene.species[k % count].name, scene.meshes[k / count].name}, scene.contact.mesh[k],
+                plan.mesh[k]);
+        ++settings_;
     }
 
     // The kind whose stiffness differs most; null where none does.
     const KindOfContact* most_different() const {
         const KindOfContact* worst = nullptr;
         for (const KindOfContact& kind : kinds_)
-            if (kind.differs() && (worst == nullptr || kind.most / kind.least > worst->most / worst->least))
+            if (differs(kind) && (worst == nullptr || kind.most / kind.least > worst->most / worst->least))
                 worst = &kind;
         return worst;
     }
@@ -57,7 +55,7 @@ class KindsOfContact {
     std::string pairs() const {
         std::string text = "\n# The study gives all its members the stiffness of the stiffest.\n";
         for (const KindOfContact& kind : kinds_)
-            if (kind.differs())
+            if (differs(kind))
                 text +=
                     fmt::format("[[contact.pair]]\nbetween = [{}, {}]\n{} = {}\n", quoted(kind.between.first),
                                 quoted(kind.between.second), kind.hertz ? "modulus" : "stiffness", kind.most);
@@ -65,20 +63,27 @@ class KindsOfContact {
     }
 
   private:
-    void add(std::size_t number_of_kind, std::size_t setting,
-             const std::pair<std::string, std::string>& names, const PairContact& contact,
+    // A kind of contact that some settings lack, because they have other species, stays as it is.
+    bool differs(const KindOfContact& kind) const {
+        return kind.chosen && kind.settings == settings_ && kind.most > kind.least * (1 + 1e-9);
+    }
+
+    void add(const std::pair<std::string, std::string>& names, const PairContact& contact,
              const PairPlan& plan) {
         const bool hertz = contact.normal == NormalLaw::hertz;
         const double stiffness = hertz ? plan.modulus : plan.loading_stiffness;
-        if (first_) kinds_.push_back({names, hertz, true, stiffness, stiffness, setting});
-        KindOfContact& kind = kinds_.at(number_of_kind);
-        kind.chosen = kind.chosen && !contact.stiffness && hertz == kind.hertz;
-        kind.least = std::min(kind.least, stiffness);
-        if (stiffness > kind.most) kind.most = stiffness, kind.stiffest = setting;
+        const auto same = [&](const KindOfContact& kind) { return kind.between == names; };
+        auto kind = std::find_if(kinds_.begin(), kinds_.end(), same);
+        if (kind == kinds_.end())
+            kind = kinds_.insert(kinds_.end(), {names, hertz, true, stiffness, stiffness, settings_, 0});
+        kind->chosen = kind->chosen && !contact.stiffness && hertz == kind->hertz;
+        kind->least = std::min(kind->least, stiffness);
+        if (stiffness > kind->most) kind->most = stiffness, kind->stiffest = settings_;
+        ++kind->settings;
     }
 
     std::vector<KindOfContact> kinds_;
-    bool first_ = true;
+    std::size_t settings_ = 0;
 };
 
 bool decides_stiffness(const std::string& key) {
@@ -115,7 +120,10 @@ bool takes_pairs(const Study& study, const std::string& pairs) {
 }
 
 std::string number_text(const KindOfContact& kind, double value) {
-    return fmt::format("{:.4g} {}", value, kind.hertz ? "Pa" : "N/m");
+    if (kind.hertz || value < 1 || value > 1e9)
+        return fmt::format("{:.4g} {}", value, kind.hertz ? "Pa" : "N/m");
+    const double digit = std::pow(10, std::max(0.0, std::floor(std::log10(value)) - 3));  // four of them
+    return fmt::format("{:.0f} N/m", std::round(value / digit) * digit);
 }
 
 }  // namespace
@@ -125,7 +133,7 @@ std::string share_stiffness(Study& study) {
     const std::size_t settings = count_settings(study);
     for (std::size_t number = 0; number < settings && settings > 1; ++number) {
         const FilmedScene scene = scene_of(study, setting_of(study, number));
-        kinds.add_setting(number, scene, plan_with_film(scene));
+        kinds.add_setting(scene, plan_with_film(scene));
     }
     const KindOfContact* kind = kinds.most_different();
     if (kind == nullptr) return "";
