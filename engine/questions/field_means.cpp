@@ -62,6 +62,11 @@ MeanFields mean_of_records(const FieldsReader& reader, const TimeWindow& window)
         mean.to = end;
         ++mean.records;
     }
+    // The share of a cell that lies just outside of a round wall is 0 but for rounding.
+    const double largest =
+        mean.volume.empty() ? 0 : *std::max_element(mean.volume.begin(), mean.volume.end());
+    for (double& here : mean.volume)
+        if (here < 1e-6 * largest) here = 0;
     for (std::size_t f = 0; f < sums.size(); ++f) {
         if (f == volume) continue;
         mean.names.push_back(names[f]);

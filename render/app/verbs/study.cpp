@@ -111,6 +111,7 @@ class StudyVerb final : public Verb {
         estimate_ = std::make_unique<StudyEstimate>(request_.jobs, request_.films, dry_);
         EmptyColumns empty(study);
         parameters_ = StudyParameters();
+        sharing_ = PackingSharing();
         members_ = make_members(study, [&](const FilmedScene& scene, const Plan& plan) {
             estimate_->add_setting(scene, plan);
             parameters_.add_setting(scene, plan);
@@ -274,13 +275,13 @@ class StudyVerb final : public Verb {
     int work(Study& study, const std::vector<std::vector<ReferencePoint>>& references, Reporter& reporter) {
         make_study_folder(study, members_, folder_);
         const FolderLock lock = locked_folder();
-        take_shorter_runs(reporter);
         if (!stiffness_.empty()) reporter.info("stiffness: " + stiffness_);
         if (const std::string packings = sharing_.text(); !packings.empty())
             reporter.info("packings: " + packings);
         Stopwatch since_table;
         do {
             make_study_folder(study, members_, folder_);
+            take_shorter_runs(reporter);
             run_members(study, members_, folder_, request_, results_, reporter, [&] {
                 if (since_table.seconds() < table_interval) return;
                 replace_file(folder_.path / "study.csv", study_table(study, members_, results_));

@@ -44,6 +44,17 @@ double on_the_line(const TriedValue& one, const TriedValue& other, double wanted
     return one.x + std::clamp(share, 0.0, 1.0) * (other.x - one.x);
 }
 
+// Narrows the bracket to what the seeds of an undecided value tell: where the line through it, as steep as
+// the bracket, has the wanted value, and how far half of its interval reaches along that line.
+void narrow(SearchStep& step, const TriedValue& undecided, double steepness, double wanted) {
+    if (!has_interval(undecided.y) || steepness == 0) return;
+    const double x = undecided.x + (wanted - undecided.y.value) / steepness;
+    const double half = 0.5 * (undecided.y.high - undecided.y.low) / std::abs(steepness);
+    step.estimate = std::clamp(x, step.low, step.high);
+    step.low = std::max(step.low, x - half);
+    step.high = std::min(step.high, x + half);
+}
+
 }  // namespace
 
 SearchStep next_step(std::vector<TriedValue> tried, double wanted, double within) {
@@ -63,11 +74,11 @@ SearchStep next_step(std::vector<TriedValue> tried, double wanted, double within
     // The narrowest bracket: the last value on the side of the first, and the first one on the side of the
     // last.
     std::size_t begin = 0, end = tried.size() - 1;
-    bool undecided = first == 0 || last == 0;
+    const TriedValue* undecided = first == 0 ? &tried.front() : last == 0 ? &tried.back() : nullptr;
     for (std::size_t i = 1; i + 1 < tried.size(); ++i) {
         const int side = side_of(tried[i].y, wanted);
         if (side == 0)
-            undecided = true;
+            undecided = &tried[i];
         else if (side == first)
             begin = i;
         else
@@ -76,7 +87,11 @@ SearchStep next_step(std::vector<TriedValue> tried, double wanted, double within
     step.low = tried[begin].x, step.high = tried[end].x;
     step.estimate = on_the_line(tried[begin], tried[end], wanted);
     if (step.high - step.low <= within * (1 + 1e-9)) return ends(Verdict::reached);
-    if (undecided) return ends(Verdict::seeds_too_few);
+    if (undecided != nullptr) {
+        const TriedValue &one = tried[begin], &other = tried[end];
+        narrow(step, *undecided, (other.y.value - one.y.value) / (other.x - one.x), wanted);
+        return ends(Verdict::seeds_too_few);
+    }
     step.next = 0.5 * (step.low + step.high);
     return step;
 }

@@ -27,8 +27,8 @@ struct SearchStep {
     };
     Verdict verdict = Verdict::go_on;
     double next = 0;
-    // The values between which the wanted one lies, as far as is known; the estimate lies between them, on
-    // the straight line from one to the other.
+    // The values between which the wanted one lies, as far as is known; where the seeds cannot tell more, the
+    // 95 % interval that follows from theirs. The estimate lies between them, on a straight line.
     double low = 0, high = 0, estimate = 0;
 };
 
