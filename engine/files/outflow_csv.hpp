@@ -63,6 +63,8 @@ class OutflowSums {
     void add(double time, std::int32_t species, double radius);
     // What left at that time (s) or before.
     FlowedOut until(double time) const;
+    const std::vector<double>& times() const { return times_; }  // s, when each grain left, rising
+    const std::vector<double>& masses() const { return mass_; }  // kg, of that grain and all before it
 
   private:
     std::vector<double> densities_;  // kg/m3, by species

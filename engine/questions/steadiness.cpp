@@ -256,8 +256,68 @@ Steadiness steadiness_of(const std::vector<double>& times, const std::vector<dou
     return of;
 }
 
-Answer steady_answer(const StoredRun& run, const std::string& column) {
-    const Scene& scene = run.known_scene();
+Estimate mean_estimate(const std::vector<double>& times, const std::vector<double>& values, double period) {
+    const std::vector<Batch> rows = finite_rows(times, values);
+    Estimate all;
+    all.rows = rows.size();
+    if (rows.empty()) {
+        all.why = "no row has a value";
+        return all;
+    }
+    all.value = joined(rows, 0, rows.size()).value;
+    const std::vector<Batch> parts = batches_of(rows, period), tested = long_batches(parts);
+    all.batches = tested.size();
+    if (parts.size() < kLeastBatches) {
+        all.why = fmt::format("too short: {} {}, and {} are the least", parts.size(),
+                              period > 0 ? "periods" : fmt::format("batches of {} rows", kRowsWithoutDrive),
+                              kLeastBatches);
+        return all;
+    }
+    const std::vector<double> means = values_of(tested);
+    all.independent = independent_values(rows_behind(rows, parts, period));
+    if (all.independent < kLeastIndependent || correlation_of(means) > chance_of_correlation(means.size()))
+        all.why = fmt::format("too short: the rows hang together and are worth {:.0f} independent values",
+                              std::floor(all.independent));
+    else
+        all.half_width = mean_interval(means).half * widening(means);
+    return all;
+}
+
+Estimate slope_estimate(const std::vector<double>& times, const std::vector<double>& values) {
+    const std::vector<Batch> rows = finite_rows(times, values);
+    Estimate all;
+    all.rows = rows.size();
+    if (rows.size() < 2) {
+        all.why = "too short: a slope needs two rows";
+        return all;
+    }
+    const Batch middle = joined(rows, 0, rows.size());
+    double products = 0, squares = 0;
+    for (const Batch& row : rows) {
+        products += (row.time - middle.time) * (row.value - middle.value);
+        squares += (row.time - middle.time) * (row.time - middle.time);
+    }
+    all.value = products / squares;
+    const std::size_t count = std::min(kMostBatches, (rows.size() - 1) / 2);
+    if (count < kLeastBatches) {
+        all.why = fmt::format("too short: {} rows, and {} are the least", rows.size(), 2 * kLeastBatches + 1);
+        return all;
+    }
+    std::vector<double> slopes;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Batch &begin = rows[k * (rows.size() - 1) / count],
+                    &end = rows[(k + 1) * (rows.size() - 1) / count];
+        slopes.push_back((end.value - begin.value) / (end.time - begin.time));
+    }
+    all.batches = count;
+    if (correlation_of(slopes) > chance_of_correlation(count))
+        all.why = "too short, or no straight line: slopes of neighbouring parts hang together";
+    else
+        all.half_width = std::sqrt(1.2) * mean_interval(slopes).half * widening(slopes);
+    return all;
+}
+
+std::shared_ptr<const MeasureTable> table_with(const StoredRun& run, const std::string& column) {
     const std::shared_ptr<const MeasureTable> table = run.measures();
     if (table == nullptr)
         throw UserError(
@@ -271,12 +331,26 @@ Answer steady_answer(const StoredRun& run, const std::string& column) {
     }
     if (!table->find("time_s"))
         throw UserError(fmt::format("{}: has no column time_s", run.name_of("measures.csv")));
-    const bool driven = scene.drive.present && !scene.drive.changes();
-    const Steadiness of =
-        steadiness_of(table->all("time_s"), table->all(column), driven ? 1 / scene.drive.frequency : 0);
-    Dimension dimension = Dimension::number;
+    return table;
+}
+
+double steady_period(const Scene& scene) {
+    return scene.drive.present && !scene.drive.changes() ? 1 / scene.drive.frequency : 0;
+}
+
+Dimension dimension_of_column(const Scene& scene, const std::string& column) {
     for (const MeasureColumn& one : measure_columns(scene))
-        if (one.name == column) dimension = one.dimension;
+        if (one.name == column) return one.dimension;
+    return Dimension::number;
+}
+
+Answer steady_answer(const StoredRun& run, const std::string& column) {
+    const Scene& scene = run.known_scene();
+    const std::shared_ptr<const MeasureTable> table = table_with(run, column);
+    const double period = steady_period(scene);
+    const bool driven = period > 0;
+    const Steadiness of = steadiness_of(table->all("time_s"), table->all(column), period);
+    const Dimension dimension = dimension_of_column(scene, column);
     const std::string unit = text_of(dimension).unit;
     const auto known = [](double value) { return std::isfinite(value) ? AnswerCell(value) : AnswerCell(); };
     AnswerTable answer{"steady",

@@ -18,9 +18,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "engine/measure/measures.hpp"
 #include "engine/questions/answer.hpp"
 #include "engine/scene/scene.hpp"
 
@@ -67,11 +69,36 @@ std::size_t mser_truncation(const std::vector<double>& batch_means);
 // this is added again.
 double independent_values(const std::vector<double>& values);
 
+// The mean of all rows, or the slope of the line of least squares (per s), with half the width of its 95 %
+// interval. The half is NaN where the rows tell too little for one; then `why` says what is lacking.
+struct Estimate {
+    double value = std::numeric_limits<double>::quiet_NaN(), half_width = value;
+    std::size_t rows = 0, batches = 0;
+    double independent = 0;  // how many independent values the rows are worth; a slope has none
+    std::string why;
+};
+
+// The mean, whose interval comes from means of long batches by the rules of steadiness_of(). Nothing is left
+// out as a transient.
+Estimate mean_estimate(const std::vector<double>& times, const std::vector<double>& values, double period);
+
+// The slope. Its interval comes from the slopes between the ends of batches: of what is summed up, as mass
+// that flows out, these are nearly independent. They are wider by what is left of their correlation, and by
+// the factor sqrt(6/5) by which a line of least squares through a random walk errs more than the line through
+// its ends.
+Estimate slope_estimate(const std::vector<double>& times, const std::vector<double>& values);
+
 struct MannKendall {
     double s = 0, tau = 0, z = 0, p = 1;
 };
 // The Mann-Kendall test, corrected for ties and for continuity.
 MannKendall mann_kendall(const std::vector<double>& values);
+
+// The run's measures.csv, which has the columns time_s and that one. Throws UserError where it has not.
+std::shared_ptr<const MeasureTable> table_with(const StoredRun& run, const std::string& column);
+// The period of a drive that never changes, in s; 0 for another or none.
+double steady_period(const Scene& scene);
+Dimension dimension_of_column(const Scene& scene, const std::string& column);
 
 // Tests a column of a run's measures.csv. Throws UserError where there is no such file or column.
 Answer steady_answer(const StoredRun& run, const std::string& column);

@@ -66,9 +66,9 @@ TEST(StudyChartPoints, AreMeansOverSeedsAlone) {
     ASSERT_EQ(series[1].points.size(), 2u);
     EXPECT_EQ(series[1].points[0].x, 2);
     EXPECT_EQ(series[1].points[1].x, 3);
-    EXPECT_EQ(series[1].points[0].y.mean, 2.5);
-    EXPECT_EQ(series[1].points[1].y.mean, 8.5);
-    EXPECT_NEAR(series[1].points[0].y.half, student_t(0.95, 1) / 2, 1e-12);
+    EXPECT_EQ(series[1].points[0].y.value, 2.5);
+    EXPECT_EQ(series[1].points[1].y.value, 8.5);
+    EXPECT_NEAR(series[1].points[0].y.high, 2.5 + student_t(0.95, 1) / 2, 1e-12);
 }
 
 TEST(StudyChartPoints, LeaveOutWhatIsNotThere) {
@@ -78,12 +78,13 @@ TEST(StudyChartPoints, LeaveOutWhatIsNotThere) {
     made.results[2].values[1] = std::numeric_limits<double>::quiet_NaN();
     const std::vector<ChartSeries> series =
         chart_series(made.study, made.members, made.results, made.study.charts[0]);
-    EXPECT_EQ(series[0].points[0].members, 1u);
-    EXPECT_EQ(series[0].points[0].y.mean, 1);
-    EXPECT_EQ(series[1].points[0].members, 2u);
+    EXPECT_EQ(series[0].points[0].y.members, 1u);
+    EXPECT_EQ(series[0].points[0].y.value, 1);
+    EXPECT_EQ(series[1].points[0].y.members, 2u);
     EXPECT_EQ(series[1].points[0].y.count, 1u);
-    EXPECT_EQ(series[1].points[0].y.mean, 3);
-    EXPECT_EQ(setting_interval(made.members, made.results, 1, 1).mean, 3);
+    EXPECT_TRUE(std::isnan(series[1].points[0].y.value)) << "one of two seeds has a value";
+    EXPECT_EQ(series[1].points[0].y.of_some, 3);
+    EXPECT_EQ(setting_summary(made.study, made.members, made.results, 1, 1).count, 1u);
 }
 
 TEST(StudyChartLabels, StandOnTheChartWithTheirUnits) {
@@ -133,7 +134,7 @@ TEST(StudyChartPoints, OfSeveralSeriesDoNotLieOnEachOther) {
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 3 * 2 * 2) << "series, Γ, seeds";
     std::vector<ChartSeries> many = series;
     for (ChartSeries& each : many)
-        for (ChartPoint& point : each.points) point.values.assign(few_values + 1, 1.0);
+        for (ChartPoint& point : each.points) point.y.values.assign(few_values + 1, 1.0);
     EXPECT_FALSE(has_seeds(many));
 }
 

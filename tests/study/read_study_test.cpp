@@ -105,7 +105,7 @@ TEST(StudyReader, AStudyVariesSomething) {
 TEST(StudyKeys, DocsTellWhatTheReaderKnows) {
     const std::string page = GRAINREEL_SOURCE "/docs/reference/studies.md";
     const std::string begin_mark =
-        "<!-- table of keys: generated from render/app/study/file/read_study.cpp, begin -->\n";
+        "<!-- table of keys: generated from render/app/study/file/study_keys.cpp, begin -->\n";
     const std::string end_mark = "<!-- table of keys: end -->\n";
     std::string text = text_of(page);
     const auto begin = text.find(begin_mark), end = text.find(end_mark);
@@ -118,7 +118,7 @@ TEST(StudyKeys, DocsTellWhatTheReaderKnows) {
         return;
     }
     EXPECT_EQ(text.substr(start, end - start), table)
-        << "docs/reference/studies.md is not what render/app/study/file/read_study.cpp says; write it anew "
+        << "docs/reference/studies.md is not what render/app/study/file/study_keys.cpp says; write it anew "
            "with\n"
            "  GRAINREEL_WRITE_DOCS=1 test_study --gtest_filter=StudyKeys.DocsTellWhatTheReaderKnows";
 }

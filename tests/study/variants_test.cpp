@@ -72,7 +72,7 @@ TEST(StudyVariants, HaveTheSceneThatSetWouldMake) {
 TEST(StudyVariants, KeepTheirHash) {
     const StudyFolderOfTest folder;
     const auto hash = [&](const std::string& text) {
-        const std::string name = members_of(folder.read(text)).back().name;
+        const std::string name = members_of(folder.read(text)).back().stem;
         return name.substr(name.rfind('_'));
     };
     const std::string first = hash(with_variants);
@@ -110,8 +110,8 @@ TEST(StudyVariants, AreAColumnALineOfAChartAndARowOfThePage) {
     const std::vector<ChartSeries> series = chart_series(study, members, results, study.charts[0]);
     ASSERT_EQ(series.size(), 2u);
     EXPECT_EQ(series[0].name, "variant = as it is");
-    EXPECT_EQ(series[0].points[1].y.mean, (3 + 4 + 5) / 3.0);
-    EXPECT_EQ(series[1].points[1].y.mean, 7);
+    EXPECT_EQ(series[0].points[1].y.value, (3 + 4 + 5) / 3.0);
+    EXPECT_EQ(series[1].points[1].y.value, 7);
     const std::string page = study_page(study, members, results, {folder.path()}, {});
     EXPECT_THAT(page, HasSubstr("<td>as it is</td><td>2</td>"));
     EXPECT_THAT(page, HasSubstr("3 of 3</td>"));

@@ -1,5 +1,6 @@
 #include "engine/lab/chart/gnuplot.hpp"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +18,10 @@ bool run_gnuplot(const std::filesystem::path& folder, std::string commands) {
     posix_spawn_file_actions_t there;
     posix_spawn_file_actions_init(&there);
     posix_spawn_file_actions_addchdir_np(&there, folder.c_str());
+    // What gnuplot says of an axis that it had to widen, or of a series without points, is none of the
+    // user's.
+    posix_spawn_file_actions_addopen(&there, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&there, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     char name[] = "gnuplot";
     char* words[] = {name, commands.data(), nullptr};
     pid_t child = 0;

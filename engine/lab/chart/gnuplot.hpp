@@ -7,7 +7,8 @@
 
 namespace grainreel {
 
-// Runs gnuplot on these commands, in this folder. False when there is no gnuplot, or when it failed.
+// Runs gnuplot on these commands, in this folder. Its words reach nobody. False when there is no gnuplot, or
+// when it failed; the commands given to gnuplot by hand then tell why.
 bool run_gnuplot(const std::filesystem::path& folder, std::string commands);
 
 // Text as gnuplot reads it. It is in single quotes, where only a quote has a meaning; text with a quote is

@@ -10,6 +10,7 @@
 #include "engine/mesh/room.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/plan_bed.hpp"
+#include "engine/questions/discharge.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/state/glued_grains.hpp"
@@ -251,6 +252,9 @@ void print_setup(const FilmedScene& scene, const Plan& plan, Listing& list) {
                               metres_text(plan.bed_height),
                               100 * plan.bed_height / (scene.container.height - scene.container.base())));
     list.line("gravity", fmt::format("{:.4g} m/s2", scene.gravity.norm()));
+    if (const auto rate = beverloo_rate(scene))
+        list.line("outflow",
+                  fmt::format("Beverloo's law expects {:.4g} kg/s: {}", *rate, beverloo_words(scene)));
     list.line("drive", drive_text(scene));
     print_stages(scene, list);
 }

@@ -14,8 +14,11 @@
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/questions/contact_questions.hpp"
+#include "engine/questions/discharge.hpp"
+#include "engine/questions/field_means.hpp"
 #include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
+#include "engine/questions/run_parameters.hpp"
 #include "engine/questions/statistics.hpp"
 #include "engine/questions/steadiness.hpp"
 #include "engine/questions/where_question.hpp"
@@ -40,10 +43,16 @@ class Inspection {
         open(reporter);
         StoredRun& run = *asked_.run;
         tell_news(run, reporter);
-        Answer answer = asks_.steady ? named("--steady", [&] { return steady_answer(run, *asks_.steady); })
-                        : asks_.series() ? named("--where", [&] { return series_answer(run, reporter); })
-                        : asks_.average  ? mean_answer(run, reporter)
-                                         : single_answer(run, reporter);
+        Answer answer =
+            asks_.steady       ? named("--steady", [&] { return steady_answer(run, *asks_.steady); })
+            : asks_.discharge  ? named("--discharge", [&] { return discharge_answer(run); })
+            : asks_.parameters ? named("--parameters", [&] { return parameters_answer(run); })
+            : !asks_.fields.empty()
+                ? named("--fields", [&] { return fields_answer(run, asks_.fields, asks_.columns.window); })
+            : asks_.of_columns() ? named("--measure", [&] { return columns_answer(run, asks_.columns); })
+            : asks_.series()     ? named("--where", [&] { return series_answer(run, reporter); })
+            : asks_.average      ? mean_answer(run, reporter)
+                                 : single_answer(run, reporter);
         answer.notes.insert(answer.notes.end(), missing_.begin(), missing_.end());
         return answer;
     }

@@ -12,6 +12,7 @@
 #include "engine/files/frames/state_archive.hpp"
 #include "engine/questions/answer.hpp"
 #include "engine/questions/asked_moment.hpp"
+#include "engine/questions/column_figures.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/picture/gl/provider.hpp"
@@ -33,6 +34,10 @@ struct InspectRequest {
     std::optional<std::int64_t> grain;  // id of a grain
     std::optional<std::string> wall, where, profile, slice, histogram;
     std::optional<std::string> steady;  // name of a column of measures.csv
+    std::string fields;                 // grid of the means of fields: kept, rz; empty: not asked
+    bool discharge = false;             // rate of the outflow
+    bool parameters = false;            // the table of all parameters
+    ColumnsRequest columns;             // figures of columns of measures.csv; no column: not asked
     std::optional<double> compare;      // s, time of the earlier moment
     std::vector<double> pixel;          // x, y of a pixel; empty: not asked
     // through: all that lies behind the pixel, not only what is seen there.
@@ -47,6 +52,10 @@ struct InspectRequest {
 
     bool json = false, csv = false;  // how the answer is printed
 
+    // Whether the question is to the whole run and not to a moment.
+    bool of_columns() const {
+        return steady || discharge || parameters || !fields.empty() || !columns.columns.empty();
+    }
     bool series() const { return over_time || every.has_value(); }
     bool draws() const { return !picture.empty() || !pixel.empty(); }
 };

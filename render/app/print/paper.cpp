@@ -20,8 +20,7 @@ namespace {
 
 constexpr double inch = 25.4;          // mm
 constexpr double points_an_inch = 72;  // points of type in an inch
-constexpr double letter = 1.6;         // mm, mean width of DejaVu Sans at 8 points
-constexpr const char* font = "DejaVu Sans,8";
+constexpr double letter = 0.2;         // mm, mean width of a letter of DejaVu Sans, for each point of height
 
 double whole_points(double mm) {
     return std::round(mm / inch * points_an_inch);
@@ -32,6 +31,7 @@ double whole_points(double mm) {
 std::string terminal(const std::string& form, const Paper& paper) {
     const double wide = whole_points(paper.width_mm), high = whole_points(paper.height_mm());
     constexpr double letters = points_an_inch / 96;
+    const std::string font = fmt::format("{},{:.4g}", paper.font, paper.letters);
     if (form == "svg")  // one unit is a point
         return fmt::format("set terminal svg noenhanced size {},{} font '{}' background 'white'", wide, high,
                            font);
@@ -59,7 +59,9 @@ double Paper::height_mm() const {
 }
 
 PaperLines lines_on(const Paper& paper) {
-    const auto letters = [](double mm) { return static_cast<std::size_t>(std::max(10.0, mm / letter)); };
+    const auto letters = [&](double mm) {
+        return static_cast<std::size_t>(std::max(10.0, mm / (letter * paper.letters)));
+    };
     const std::size_t keys = paper.width_mm < 120 ? 1 : 2;
     return {letters(paper.width_mm - 15), letters(paper.height_mm() - 12),
             letters(paper.width_mm / static_cast<double>(keys) - 20), keys};

@@ -15,11 +15,13 @@ struct Paper {
     std::vector<std::string> forms{"pdf"};  // pdf, svg, png
     double width_mm = 85;                   // a column of a journal
     double dpi = 300;                       // dots an inch of png files
+    std::string font = "DejaVu Sans";
+    double letters = 8;  // height of letters, in points
 
     double height_mm() const;
 };
 
-// How many letters of 8 points fit along the lower axis (across), along the upright axis, and into an entry
+// How many letters fit along the lower axis (across), along the upright axis, and into an entry
 // of the key; and how many entries of the key stand in a row.
 struct PaperLines {
     std::size_t across, upright, key, keys_a_line;

@@ -8,6 +8,7 @@
 #include "engine/base/counted.hpp"
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/points.hpp"
+#include "render/app/study/results/summary.hpp"
 #include "render/page/embed.hpp"
 
 namespace grainreel {
@@ -66,22 +67,51 @@ std::string summary(const Study& study, const std::vector<MemberResult>& results
 // What is seen on a chart: for each series its first and its last point.
 std::string chart_words(const Study& study, const StudyChart& chart, const std::vector<ChartSeries>& all) {
     const Variation& axis = study.variations[chart.x];
+    const auto words = [](const SeedSummary& y) {
+        const std::string some = came_up_text(y);
+        return summary_text(y) + (some.empty() ? "" : " (" + some + ")");
+    };
     const auto place = [&](double x) {
         return axis.numeric ? fmt::format("{:.4g}", x) : axis.values.at(static_cast<std::size_t>(x)).words;
     };
-    std::string text = fmt::format("A chart of {} against {}", study.measures[chart.y].title(), axis.title());
+    std::string text = fmt::format("A chart of {} against {}", y_title(study, chart), x_title(study, chart));
     const char* between = ": ";
     for (const ChartSeries& series : all) {
         std::vector<ChartPoint> points = series.points;
-        std::erase_if(points, [](const ChartPoint& point) { return point.y.count == 0; });
+        std::erase_if(points, [](const ChartPoint& point) { return !point.y.is_seen(); });
         if (points.empty()) continue;
         text += between + (series.name.empty() ? "" : "for " + series.name + " ");
-        text += fmt::format("{} at {}", interval_text(points.front().y), place(points.front().x));
+        text += fmt::format("{} at {}", words(points.front().y), place(points.front().x));
         if (points.size() > 1)
-            text += fmt::format(", {} at {}", interval_text(points.back().y), place(points.back().x));
+            text += fmt::format(", {} at {}", words(points.back().y), place(points.back().x));
         between = "; ";
     }
     return text;
+}
+
+// A sentence for each chart in which no member has a value.
+std::string charts_without_points(const Study& study, const std::vector<Member>& members,
+                                  const std::vector<MemberResult>& results) {
+    std::string text;
+    for (const StudyChart& chart : study.charts) {
+        bool seen = false;
+        for (const ChartSeries& series : chart_series(study, members, results, chart))
+            for (const ChartPoint& point : series.points)
+                seen = seen || point.y.is_seen() || point.y.members == 0;
+        if (!seen)
+            text += fmt::format("<p>No chart of {}: it came up in no member.</p>\n",
+                                html_text(y_title(study, chart)));
+    }
+    return text;
+}
+
+bool comes_up_in_some(const Study& study, const std::vector<Member>& members,
+                      const std::vector<MemberResult>& results) {
+    for (const StudyChart& chart : study.charts)
+        for (const ChartSeries& series : chart_series(study, members, results, chart))
+            for (const ChartPoint& point : series.points)
+                if (!point.y.came_up_everywhere()) return true;
+    return false;
 }
 
 std::string chart_figures(const Study& study, const std::vector<Member>& members,
@@ -97,13 +127,20 @@ std::string chart_figures(const Study& study, const std::vector<Member>& members
             "href=\"charts/{0}.png\">PNG</a></figcaption></figure>\n",
             html_text(stem), html_text(chart_words(study, chart, series)));
     }
+    text += charts_without_points(study, members, results);
     if (text.empty()) return "";
     const char* bars = study.has_intervals()
                            ? "<p>Points are means over seeds; bars are 95 % intervals of the mean "
                              "(Student’s t). Where there are fewer than five seeds, small rings show each of "
                              "them. Points of several series stand a little aside of each other.</p>\n"
                            : "";
-    return fmt::format("<h2>Charts</h2>\n{}<div class=\"charts\">\n{}</div>\n", bars, text);
+    const char* open =
+        comes_up_in_some(study, members, results)
+            ? "<p>Open symbols are no means: the measure came up in some seeds only, as the "
+              "number beside them says. ↑ and ≥ stand at a lower bound: what did not come up by the "
+              "end of a run comes later.</p>\n"
+            : "";
+    return fmt::format("<h2>Charts</h2>\n{}{}<div class=\"charts\">\n{}</div>\n", bars, open, text);
 }
 
 // The index of the first member of each setting, in the order of settings.
@@ -122,19 +159,20 @@ std::string settings_table(const Study& study, const std::vector<Member>& member
         text += fmt::format("<th>{}</th>", html_text(variation.shown));
     for (const StudyMeasure& measure : study.measures)
         text += fmt::format("<th>{}</th>", html_text(measure.title()));
-    text += "<th>values</th></tr></thead>\n";
+    text += "<th>complete</th></tr></thead>\n";
     for (const std::size_t m : first_members(members)) {
         text += "<tr>";
         for (std::size_t i = 0; i < study.variations.size(); ++i)
             text += fmt::format("<td>{}</td>", html_text(study.variations[i].values[members[m].at[i]].words));
-        std::size_t most = 0;
         for (std::size_t i = 0; i < study.measures.size(); ++i) {
-            const MeanInterval interval = setting_interval(members, results, members[m].setting, i);
-            text += fmt::format("<td class=\"number\">{}</td>", interval_text(interval));
-            most = std::max(most, interval.count);
+            const SeedSummary all = setting_summary(study, members, results, members[m].setting, i);
+            const std::string some = came_up_text(all);
+            text += fmt::format("<td class=\"number\">{}{}</td>", summary_text(all),
+                                some.empty() ? "" : "<br><small>" + some + "</small>");
         }
-        text +=
-            fmt::format("<td class=\"number\">{} of {}</td></tr>\n", most, study.seed_count(members[m].at));
+        text += fmt::format("<td class=\"number\">{} of {}</td></tr>\n",
+                            setting_complete(members, results, members[m].setting),
+                            study.seed_count(members[m].at));
     }
     return text + "</table></div>\n";
 }
@@ -195,21 +233,34 @@ std::string warnings(const std::vector<MemberResult>& results) {
     return text.empty() ? "" : fmt::format("<h2>Warnings</h2>\n<ul>\n{}</ul>\n", text);
 }
 
+std::string methods_part(const std::string& methods) {
+    if (methods.empty()) return "";
+    return fmt::format(
+        "<h2>Methods</h2>\n<p>{}</p>\n<p>All parameters of all settings: <a "
+        "href=\"parameters.csv\">parameters.csv</a>.</p>\n",
+        html_text(methods));
+}
+
 }  // namespace
 
 std::string study_page(const Study& study, const std::vector<Member>& members,
                        const std::vector<MemberResult>& results, const StudyFolder& folder,
-                       const std::vector<std::string>& charts) {
+                       const std::vector<std::string>& charts, const std::vector<std::string>& notes,
+                       const std::string& methods) {
+    std::string told;
+    for (const std::string& note : notes) told += fmt::format("<p>{}.</p>\n", html_text(note));
     return fmt::format(
                "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
                "name=\"viewport\" "
                "content=\"width=device-width, "
                "initial-scale=1\">\n<title>{0}</title>\n<style>{1}</style>\n</head>\n"
-               "<body>\n<h1>{0}</h1>\n<p>{2} All of them: <a href=\"study.csv\">study.csv</a>.</p>\n",
+               "<body>\n<h1>{0}</h1>\n<p>{2} All of them: <a href=\"study.csv\">study.csv</a>, a row for "
+               "each; a row for each setting: <a "
+               "href=\"settings.csv\">settings.csv</a>.</p>\n",
                html_text(study.title), style, html_text(summary(study, results))) +
-           chart_figures(study, members, results, charts) + settings_table(study, members, results) +
-           posters(study, members, folder) + failures(study, members, results) + warnings(results) +
-           "</body>\n</html>\n";
+           chart_figures(study, members, results, charts) + settings_table(study, members, results) + told +
+           methods_part(methods) + posters(study, members, folder) + failures(study, members, results) +
+           warnings(results) + "</body>\n</html>\n";
 }
 
 }  // namespace grainreel

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "engine/base/typed_time.hpp"
 
 namespace grainreel {
@@ -74,6 +76,20 @@ Assignments Variation::assignments(std::size_t number) const {
     const Value& value = values[number];
     if (key == variant_axis) return value.sets;
     return {{key + "=" + value.toml, value.place}};
+}
+
+void Study::try_value(double x) {
+    Variation& variation = variations.front();
+    const std::string& unit = search->written_unit;
+    const std::string number = fmt::format("{:.12g}", x);
+    Variation::Value value;
+    value.words = unit.empty() ? number : number + " " + unit;
+    value.toml = unit.empty() ? number : "\"" + value.words + "\"";
+    value.place = variation.place;
+    value.number = x;
+    const auto after = std::find_if(variation.values.begin(), variation.values.end(),
+                                    [&](const Variation::Value& other) { return other.number > x; });
+    variation.values.insert(after, std::move(value));
 }
 
 const Seeds& Study::seeds_of(const std::vector<std::size_t>& at) const {
@@ -147,6 +163,9 @@ double reduce(const Reduction& how, const std::vector<double>& times, const std:
             return last_crossing(how.threshold, rows.times, rows.values);
         case Reduction::Kind::first_passage:
             return first_passage(how.threshold, rows.times, rows.values);
+        case Reduction::Kind::share:
+            if (rows.values.empty()) return nan;
+            return std::isfinite(first_passage(how.threshold, rows.times, rows.values)) ? 1 : 0;
         case Reduction::Kind::max:
             return rows.values.empty() ? nan : *std::max_element(rows.values.begin(), rows.values.end());
         case Reduction::Kind::min:
@@ -157,6 +176,11 @@ double reduce(const Reduction& how, const std::vector<double>& times, const std:
             break;
     }
     return all.values.empty() ? nan : all.values.back();
+}
+
+double last_time(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values) {
+    const TimedRows rows = finite_rows(rows_within(how, times, values));
+    return rows.times.empty() ? nan : rows.times.back();
 }
 
 }  // namespace grainreel

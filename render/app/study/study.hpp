@@ -3,6 +3,7 @@
 // written.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -48,13 +49,21 @@ struct Variation {
 
 // How a column of measures.csv becomes one number.
 struct Reduction {
-    // end: the last value. crossing: last_crossing(). deviation: deviation_of_values().
-    enum class Kind { end, mean, slope, crossing, first_passage, max, min, deviation };
+    // end: the last value. crossing: last_crossing(). deviation: deviation_of_values(). share: 1 where
+    // first_passage() has a value, else 0.
+    enum class Kind { end, mean, slope, crossing, first_passage, max, min, deviation, share };
     Kind kind = Kind::end;
     // s; the rows within this window count, ends included.
     double from = 0, to = std::numeric_limits<double>::infinity();
     double threshold = 0;  // SI
+
+    bool has_threshold() const {
+        return kind == Kind::crossing || kind == Kind::first_passage || kind == Kind::share;
+    }
 };
+
+// What the values of the seeds of a setting are joined to.
+enum class SeedAverage { mean, median, share };
 
 // A number that each run is reduced to.
 struct StudyMeasure {
@@ -62,7 +71,8 @@ struct StudyMeasure {
     std::string label;
     std::string column;  // column of measures.csv
     Reduction reduction;
-    std::string unit = {};   // of the number, on charts; empty for none
+    std::string unit = {};  // of the number, on charts; empty for none
+    SeedAverage average = SeedAverage::mean;
     std::string place = {};  // of its column in the study file, for messages
 
     std::string title() const { return axis_title(label, unit); }
@@ -74,20 +84,43 @@ struct StudyChart {
     std::size_t x = 0;  // index of the variation along x
     std::size_t y = 0;  // index of the measure along y
     bool log_x = false, log_y = false;
+    std::string x_label, y_label;  // empty: what the key and the measure are called
+    // Where the axes begin and end, in their units; none: by the points.
+    std::optional<std::array<double, 2>> x_range, y_range;
+    double x_per = 1;                 // in the unit of the key; x is divided by it
+    std::string x_per_words;          // it as the study writes it, "2 mm"; empty for none
+    std::vector<std::string> series;  // names of the series that are drawn, in this order; empty: all
+    std::string series_place = {};    // in the study file, for messages
+    std::string font = "DejaVu Sans";
+    double letters = 8;                              // height of letters in points, on paper
     std::optional<std::filesystem::path> reference;  // a CSV file of points from elsewhere
     std::string reference_label;
+};
+
+// The study looks for the value of its one key at which a measure has a wanted value.
+struct StudySearch {
+    std::size_t measure = 0;
+    double wanted = 0;         // in the measure's unit
+    double within = 0;         // how narrow the bracket is to become, in the key's unit
+    std::string written_unit;  // behind the key's values in the study file; empty for none
+    std::string words;         // "angle = 24"
+    std::string place;         // in the study file, for messages
 };
 
 struct Study {
     std::filesystem::path file, scene;
     std::string text, scene_text;  // contents of these files as they were read
     std::string title;
-    Assignments sets;  // assignments for every member
-    Seeds seeds;       // empty: the scene's own
+    Assignments sets;           // assignments for every member
+    Seeds seeds;                // empty: the scene's own
+    bool one_stiffness = true;  // all members have the stiffness of the stiffest, where the plan chooses it
     std::vector<Variation> variations;
+    std::optional<StudySearch> search;  // by values of variations[0], of which both ends are there at first
     std::vector<StudyMeasure> measures;
     std::vector<StudyChart> charts;
 
+    // Adds a value of the key that is searched, in order of size.
+    void try_value(double x);
     bool has_variants() const { return !variations.empty() && variations.front().key == variant_axis; }
     // The seeds of the setting with these values of the variations: those of its variant, or those of the
     // study. Empty: the scene's own seed is used.
@@ -105,6 +138,9 @@ struct Study {
 // threshold is not reached. Values that are NaN are left out, except by Kind::end, for which the last value
 // counts even if it is NaN.
 double reduce(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values);
+// The time in s of the last finite value in the window; NaN for none. A passage that reduce() does not find
+// comes later.
+double last_time(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values);
 
 // The mean of values that are all finite; NaN for none.
 double mean_of_values(const std::vector<double>& values);

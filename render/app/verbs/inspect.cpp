@@ -133,9 +133,16 @@ class Inspect final : public Verb {
         if (asks_.every && !(*asks_.every > 0)) throw UserError("--every: must be longer than 0 s");
         if (!asks_.mean.empty() && !asks_.series())
             throw UserError("--mean: is over time; add --every or --over-time");
-        if (asks_.steady && (!asks_.picture.empty() || asks_.average || asks_.moment.at ||
-                             asks_.moment.frame || asks_.moment.cycle))
-            throw UserError("--steady: is of the whole run; leave moment, mean and picture out");
+        if (asks_.of_columns() && (!asks_.picture.empty() || asks_.average || asks_.moment.at ||
+                                   asks_.moment.frame || asks_.moment.cycle))
+            throw UserError(fmt::format("{}: is of the whole run; leave moment, mean and picture out",
+                                        asks_.steady           ? "--steady"
+                                        : asks_.discharge      ? "--discharge"
+                                        : asks_.parameters     ? "--parameters"
+                                        : asks_.fields.empty() ? "--measure"
+                                                               : "--fields"));
+        if (windowed_ && asks_.columns.columns.empty() && asks_.fields.empty())
+            throw UserError("--window: says which rows or records count; add --measure or --fields");
         if (asks_.average && !asks_.pixel.empty())
             throw UserError("--average: --pixel is of one picture, so there is no mean; leave one out");
         if (gl_given_ && asks_.picture.empty())
@@ -194,6 +201,25 @@ class Inspect final : public Verb {
                             "whether it drifts after that")
                 ->type_name("COLUMN"),
             parser
+                .add_option("--fields", asks_.fields,
+                            "Means of fields.nc in a --window: on its own grid (kept), or over rings about "
+                            "the axis (rz), with the turnover time of the flow")
+                ->type_name("GRID")
+                ->check(CLI::IsMember({"kept", "rz"})),
+            parser.add_flag("--parameters", asks_.parameters,
+                            "All parameters of the run, with what the plan chose, as a table"),
+            parser.add_flag(
+                "--discharge", asks_.discharge,
+                "How fast grains flow out, when the vessel is empty, and what Beverloo's law expects"),
+            parser
+                .add_option(
+                    "--measure", asks_.columns.columns,
+                    "Mean, deviation and interval of these columns of measures.csv; see --window, --slope "
+                    "and --by")
+                ->type_name("COLUMN,...")
+                ->delimiter(',')
+                ->check(not_empty()),
+            parser
                 .add_option("--pixel", asks_.pixel,
                             "Which grain or wall is at this pixel of the film's picture")
                 ->type_name("X,Y")
@@ -216,6 +242,43 @@ class Inspect final : public Verb {
                         "With --every or --over-time: also the mean of this quantity over these grains")
             ->type_name("QUANTITY")
             ->needs(parser.get_option("--where"));
+        CLI::Option* measure = parser.get_option("--measure");
+        const auto window = [this](const char* option, const std::string& text) {
+            try {
+                asks_.columns.window = time_window(text);
+            } catch (const UserError& mistake) {
+                throw UserError(fmt::format("{}: {}", option, mistake.what()));
+            }
+        };
+        CLI::Option* in_window =
+            parser
+                .add_option_function<std::string>(
+                    "--window",
+                    [this, window](const std::string& text) {
+                        windowed_ = true;
+                        window("--window", text);
+                    },
+                    "With --measure or --fields: only what lies between these times, as in 0.2s..0.8s [all]")
+                ->type_name("FROM..TO");
+        parser
+            .add_option_function<std::string>(
+                "--slope",
+                [this, window](const std::string& text) {
+                    asks_.columns.slope = true;
+                    window("--slope", text);
+                },
+                "With --measure: also the slope between these times, with its interval")
+            ->type_name("FROM..TO")
+            ->needs(measure)
+            ->excludes(in_window);
+        parser
+            .add_option_function<std::string>(
+                "--by", [this](const std::string&) { asks_.columns.by_period = true; },
+                "With --measure: a row for each `period` of the drive")
+            ->type_name("WHAT")
+            ->check(CLI::IsMember({"period"}))
+            ->needs(measure)
+            ->excludes(parser.get_option("--slope"));
         parser.add_flag("--through", asks_.through, "With --pixel: also what lies behind it")
             ->needs(questions.back());
         parser.add_option("--bins", asks_.bins, "With --histogram: number of bins [20]")
@@ -225,7 +288,7 @@ class Inspect final : public Verb {
     }
 
     InspectRequest asks_;
-    bool gl_given_ = false;
+    bool gl_given_ = false, windowed_ = false;
 };
 
 }  // namespace

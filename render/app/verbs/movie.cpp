@@ -17,6 +17,7 @@
 #include "engine/handover/carry.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/questions/discharge.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/options/cli.hpp"
@@ -173,7 +174,10 @@ class Movie final : public Verb {
         MovieJob movie(film_, reporter, scene, plan);
         std::optional<WatchChild> watch;
         if (listening) watch.emplace(movie.folder(), place_.host, std::move(*listening), report);
-        return tell_folder(movie.run(), film_);
+        const FolderJob::Ended ended = movie.run();
+        if (ended.exit_status == 0 && ended.folder)
+            for (const std::string& line : discharge_lines(*ended.folder, scene)) reporter.info(line);
+        return tell_folder(ended, film_);
     }
 
   private:

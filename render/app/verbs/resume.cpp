@@ -15,6 +15,7 @@
 #include "engine/files/run_names.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/measure/columns.hpp"
+#include "engine/questions/discharge.hpp"
 #include "engine/run/driver/agenda.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/replay/replay.hpp"
@@ -115,7 +116,10 @@ class Resume final : public Verb {
                 fmt::format("'{}' is {} from there on; it was {}", change.key, change.now, change.then));
         name_as_before(scene, folder);
         MovieJob movie(film_, reporter, scene, plan, std::move(point), std::move(lock));
-        return tell_folder(movie.run(), film_);
+        const FolderJob::Ended ended = movie.run();
+        if (ended.exit_status == 0 && ended.folder)
+            for (const std::string& line : discharge_lines(*ended.folder, scene)) reporter.info(line);
+        return tell_folder(ended, film_);
     }
 
   private:

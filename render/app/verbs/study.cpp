@@ -1,6 +1,7 @@
 // The verb `study` runs one scene with many values of its keys, measures the runs, and draws charts.
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -20,11 +21,14 @@
 #include "render/app/options/option_groups.hpp"
 #include "render/app/study/file/members.hpp"
 #include "render/app/study/file/read_study.hpp"
+#include "render/app/study/file/shared_stiffness.hpp"
 #include "render/app/study/members/child.hpp"
 #include "render/app/study/members/runner.hpp"
 #include "render/app/study/page.hpp"
 #include "render/app/study/results/drawing.hpp"
+#include "render/app/study/results/parameters.hpp"
 #include "render/app/study/results/results.hpp"
+#include "render/app/study/results/search.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -81,8 +85,9 @@ class StudyVerb final : public Verb {
 
     int run(Reporter& reporter) override {
         check_paper(paper_);
-        const Study study = read_study(file_);
+        Study study = read_study(file_);
         count_members(study, yes_);
+        stiffness_ = share_stiffness(study);
         // With GRAINREEL_PACKINGS=off members need no --no-cache, since they get the environment too.
         const char* const said = std::getenv("GRAINREEL_PACKINGS");
         request_.cache = shortest_packing_ || (said != nullptr && std::string_view(said) == "off");
@@ -90,28 +95,65 @@ class StudyVerb final : public Verb {
         for (const StudyChart& chart : study.charts)
             references.push_back(chart.reference ? read_reference(*chart.reference)
                                                  : std::vector<ReferencePoint>());
-        StudyEstimate estimate(request_.jobs, request_.films, dry_);
-        EmptyColumns empty(study);
-        members_ = make_members(study, [&](const FilmedScene& scene, const Plan& plan) {
-            estimate.add_setting(scene, plan);
-            empty.add_setting(scene);
-            if (shortest_packing_) sharing_.add_setting(scene, plan);
-        });
-        empty.check();
         folder_.path =
             std::filesystem::absolute(out_.value_or(output_base() / study.file.stem())).lexically_normal();
         check_folder();
-        choose_members(study);
-        for (const Member& member : members_) {
-            results_.push_back(read_result(folder_.member(member), study.measures));
-            request_.cost.push_back(estimate.of(member).seconds);
-        }
-        if (dry_) return tell_plan(study, estimate);
+        prepare(study);
+        follow_search(study);
+        if (dry_) return tell_plan(study);
         if (print_commands_) return tell_commands(study);
         return work(study, references, reporter);
     }
 
   private:
+    // Makes the members of all settings, and reads what is there of them.
+    void prepare(const Study& study) {
+        estimate_ = std::make_unique<StudyEstimate>(request_.jobs, request_.films, dry_);
+        EmptyColumns empty(study);
+        parameters_ = StudyParameters();
+        sharing_ = PackingSharing();
+        members_ = make_members(study, [&](const FilmedScene& scene, const Plan& plan) {
+            estimate_->add_setting(scene, plan);
+            parameters_.add_setting(scene, plan);
+            empty.add_setting(scene);
+            if (shortest_packing_) sharing_.add_setting(scene, plan);
+        });
+        empty.check();
+        check_series(study, members_);
+        choose_members(study);
+        results_.clear();
+        request_.cost.clear();
+        for (const Member& member : members_) {
+            results_.push_back(read_result(folder_.member(member), study.measures, member.steps));
+            request_.cost.push_back(estimate_->of(member).seconds);
+        }
+    }
+
+    // Where all members of a search are complete, the next value is added, as long as that is so. Whether one
+    // was added.
+    bool follow_search(Study& study) {
+        bool added = false;
+        const auto complete = [](const MemberResult& result) {
+            return result.status == MemberResult::Status::complete;
+        };
+        while (study.search && std::all_of(results_.begin(), results_.end(), complete)) {
+            std::vector<TriedValue> tried;
+            for (const Member& member : members_)
+                if (member.seed_index == 0)
+                    tried.push_back(
+                        {study.variations[0].values[member.at[0]].number,
+                         setting_summary(study, members_, results_, member.setting, study.search->measure)});
+            const SearchStep step = next_step(tried, study.search->wanted, study.search->within);
+            const Variation& key = study.variations[0];
+            search_ = search_text(step, key.shown, key.unit, study.has_intervals());
+            if (step.verdict != SearchStep::Verdict::go_on) break;
+            study.try_value(step.next);
+            prepare(study);
+            added = true;
+        }
+        return added;
+    }
+
     void add_ways(CLI::App& parser) {
         CLI::Option* dry = parser.add_flag("--dry-run", dry_,
                                            "Print the members, their cost and the disk space; run nothing");
@@ -142,6 +184,7 @@ class StudyVerb final : public Verb {
                                             study.file.string(), names_of(study.variations.front())));
             chosen[static_cast<std::size_t>(found - all.begin())] = true;
         }
+        request_.wanted.clear();
         for (const Member& member : members_) request_.wanted.push_back(chosen[member.at.front()]);
     }
 
@@ -168,7 +211,8 @@ class StudyVerb final : public Verb {
         return members;
     }
 
-    int tell_plan(const Study& study, const StudyEstimate& estimate) const {
+    int tell_plan(const Study& study) const {
+        const StudyEstimate& estimate = *estimate_;
         const std::vector<const Member*> left = pending();
         std::size_t settings = 0;
         for (const Member& member : members_) settings = std::max(settings, member.setting + 1);
@@ -188,6 +232,14 @@ class StudyVerb final : public Verb {
                                       variation.values.front().words, variation.values.back().words);
         text += fmt::format("members      {} = {}, {} of them to be run\n", members_.size(), reckoned,
                             left.size());
+        if (const std::size_t longer = shorter_runs(members_, folder_).size(); longer > 0)
+            text +=
+                fmt::format("goes on      {} from shorter runs of the study\n", counted(longer, "member"));
+        if (!stiffness_.empty()) text += fmt::format("stiffness    {}\n", stiffness_);
+        if (study.search)
+            text +=
+                fmt::format("search       {} until {}; {}\n", study.variations[0].key, study.search->words,
+                            search_.empty() ? "both ends are run first, then middles" : search_);
         if (const std::string packings = sharing_.text(); !packings.empty())
             text += fmt::format("packings     {}\n", packings);
         double bytes = 0, work = 0;
@@ -220,21 +272,55 @@ class StudyVerb final : public Verb {
         return 0;
     }
 
-    int work(const Study& study, const std::vector<std::vector<ReferencePoint>>& references,
-             Reporter& reporter) {
+    int work(Study& study, const std::vector<std::vector<ReferencePoint>>& references, Reporter& reporter) {
         make_study_folder(study, members_, folder_);
         const FolderLock lock = locked_folder();
+        if (!stiffness_.empty()) reporter.info("stiffness: " + stiffness_);
         if (const std::string packings = sharing_.text(); !packings.empty())
             reporter.info("packings: " + packings);
         Stopwatch since_table;
-        run_members(study, members_, folder_, request_, results_, reporter, [&] {
-            if (since_table.seconds() < table_interval) return;
-            replace_file(folder_.path / "study.csv", study_table(study, members_, results_));
-            since_table = Stopwatch();
-        });
-        reporter.clear();
+        do {
+            make_study_folder(study, members_, folder_);
+            take_shorter_runs(reporter);
+            run_members(study, members_, folder_, request_, results_, reporter, [&] {
+                if (since_table.seconds() < table_interval) return;
+                replace_file(folder_.path / "study.csv", study_table(study, members_, results_));
+                since_table = Stopwatch();
+            });
+            reporter.clear();
+        } while (reporter.stop_signal() == 0 && tell_search(follow_search(study), reporter));
         write_results(study, references, reporter);
         return tell_end(study, reporter);
+    }
+
+    // Runs of the study that were shorter become the beginnings of members.
+    void take_shorter_runs(Reporter& reporter) {
+        if (request_.collect_only || request_.films) return;
+        std::size_t taken = 0;
+        std::error_code failure;
+        for (const ShorterRun& run : shorter_runs(members_, folder_)) {
+            std::filesystem::rename(run.folder, folder_.member(members_[run.member]), failure);
+            if (failure) continue;
+            ++taken;
+            results_[run.member].status = MemberResult::Status::incomplete;
+        }
+        if (taken > 0)
+            reporter.info(fmt::format("{} from shorter runs", taken == 1
+                                                                  ? "1 member goes on"
+                                                                  : fmt::format("{} members go on", taken)));
+    }
+
+    // Tells where the search stands; whether it goes on.
+    bool tell_search(bool goes_on, Reporter& reporter) const {
+        if (!search_.empty()) reporter.info("search: " + search_);
+        return goes_on;
+    }
+
+    std::vector<std::string> notes() const {
+        std::vector<std::string> all;
+        if (!search_.empty()) all.push_back("Search: " + search_);
+        if (!stiffness_.empty()) all.push_back("Stiffness: " + stiffness_);
+        return all;
     }
 
     FolderLock locked_folder() const {
@@ -247,13 +333,15 @@ class StudyVerb final : public Verb {
     void write_results(const Study& study, const std::vector<std::vector<ReferencePoint>>& references,
                        Reporter& reporter) const {
         replace_file(folder_.path / "study.csv", study_table(study, members_, results_));
+        replace_file(folder_.path / "settings.csv", setting_table(study, members_, results_));
+        replace_file(folder_.path / "parameters.csv", parameters_.table());
         const DrawnCharts charts = draw_charts(study, members_, results_, references, folder_.charts());
         if (!charts.drawn)
             reporter.warning(
                 "gnuplot is missing or failed, so there are tables but no charts; install gnuplot-nox "
                 "and give the same command again");
-        replace_file(folder_.path / "index.html",
-                     study_page(study, members_, results_, folder_, charts.stems));
+        replace_file(folder_.path / "index.html", study_page(study, members_, results_, folder_, charts.stems,
+                                                             notes(), parameters_.methods(study)));
         if (!paper_.folder) return;
         const auto files = print_charts(study, members_, results_, references, paper_.paper, *paper_.folder);
         reporter.info(fmt::format("wrote {} of charts into {}", counted(files.size(), "file"),
@@ -279,18 +367,22 @@ class StudyVerb final : public Verb {
         return failed > 0 ? 1 : 0;
     }
 
-    // Warns of members without a value: means leave them out, and then describe the other members only.
+    // Warns of members without a value: their settings have no mean.
     void tell_gaps(const Study& study, Reporter& reporter) const {
         for (std::size_t i = 0; i < study.measures.size(); ++i) {
-            const auto gaps = std::count_if(results_.begin(), results_.end(), [&](const MemberResult& r) {
-                return r.status == MemberResult::Status::complete && std::isnan(r.values[i]);
-            });
-            if (gaps > 0)
-                reporter.warning(fmt::format(
-                    "{} has no value in {} complete members, and means leave these out; either its "
-                    "column is empty there, or its window has no row, or its threshold is not "
-                    "reached",
-                    study.measures[i].name, gaps));
+            std::size_t complete = 0, gaps = 0;
+            for (const MemberResult& result : results_)
+                if (result.status == MemberResult::Status::complete)
+                    ++complete, gaps += std::isnan(result.values[i]) ? 1 : 0;
+            if (gaps == 0) continue;
+            const bool passage = study.measures[i].reduction.has_threshold();
+            reporter.warning(
+                fmt::format("{} came up in {} of {} complete members; settings in which it did not "
+                            "come up everywhere have no mean. {}",
+                            study.measures[i].name, complete - gaps, complete,
+                            passage ? "The threshold was not reached; a longer run.duration, "
+                                      "reduce = \"share\" or average = \"median\" may tell more"
+                                    : "Its column is empty there, or its window has no row"));
         }
     }
 
@@ -300,9 +392,13 @@ class StudyVerb final : public Verb {
     std::vector<std::string> variants_;       // names given with --variant; empty: all
     std::optional<double> shortest_packing_;  // s, shortest packing that the cache keeps
     PackingSharing sharing_;
+    std::string stiffness_;  // what is to be told of the members' stiffness; empty for nothing
     bool yes_ = false, dry_ = false, print_commands_ = false;
     PaperOptions paper_;
     StudyFolder folder_;
+    std::unique_ptr<StudyEstimate> estimate_;
+    StudyParameters parameters_;
+    std::string search_;  // where the search stands, in words; empty for none
     std::vector<Member> members_;
     std::vector<MemberResult> results_;
 };

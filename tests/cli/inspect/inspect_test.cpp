@@ -577,6 +577,29 @@ TEST_F(InspectedMoment, WhatSaysHowAPictureIsDrawnNeedsOne) {
     EXPECT_THAT(refusal({"--film-time", "1 s"}), tells({"--film-time", "what a picture shows"}));
 }
 
+// Figures of the whole run: the mean by period of a column, and what is refused by name. 0.12 s are 2.4
+// periods.
+TEST_F(InspectedMoment, ColumnsOfTheWholeRunHaveMeans) {
+    const auto table = answer({"--measure", "kinetic_J", "--by", "period"})["tables"]["by_period"];
+    ASSERT_EQ(table["rows"].size(), 3u);
+    EXPECT_EQ(table["rows"][2][0], 2);
+    EXPECT_NEAR(table["rows"][2][1].get<double>(), 0.1, 1e-12);
+    const auto mean =
+        answer({"--measure", "kinetic_J,time_s", "--window", "0.05s..0.1s"})["tables"]["mean"]["rows"];
+    ASSERT_EQ(mean.size(), 2u);
+    EXPECT_NEAR(mean[1][2].get<double>(), 0.075, 0.002);
+    const auto slope = answer({"--measure", "time_s", "--slope", "..0.1s"})["tables"]["slope"]["rows"][0];
+    EXPECT_NEAR(slope[2].get<double>(), 1, 1e-9) << "time passes one second a second";
+    EXPECT_FALSE(answer({"--parameters"})["tables"]["parameters"]["rows"].empty());
+    EXPECT_THAT(refusal({"--window", "0s..1s"}), tells({"--window", "add --measure"}));
+    EXPECT_THAT(refusal({"--measure", "kinetic"}), tells({"--measure", "'kinetic'"}));
+    EXPECT_THAT(refusal({"--measure", "kinetic_J", "--window", "3s..4s"}), tells({"--measure", "no row"}));
+    EXPECT_THAT(refusal({"--measure", "kinetic_J", "--slope", "1s"}), tells({"--slope", "two times"}));
+    EXPECT_THAT(refusal({"--measure", "kinetic_J", "--at", "0.1 s"}), tells({"--measure", "whole run"}));
+    EXPECT_THAT(refusal({"--discharge"}), tells({"--discharge", "outlet"}));
+    EXPECT_THAT(refusal({"--fields", "rz"}), tells({"--fields", "fields.nc"}));
+}
+
 // A CSV table has no room for words, so they are printed to stderr.
 TEST_F(InspectedMoment, ACsvHasItsMomentAndNotesBesideIt) {
     const Ended ended = inspect({"--at", "0.0731 s", "--no-replay", "--where", "id < 3", "--csv"});

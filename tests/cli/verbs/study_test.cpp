@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <unistd.h>
@@ -146,6 +147,49 @@ TEST_F(StudyVerb, GoesOnWithWhatIsMissing) {
     EXPECT_EQ(fs::last_write_time(all[3] / "run.json"), times[3]);
     EXPECT_NE(fs::last_write_time(all[1] / "run.json"), times[1]);
     EXPECT_NE(fs::last_write_time(all[2] / "run.json"), times[2]);
+}
+
+// A study that should be longer goes on with its members, and gets what a study that was longer at once gets.
+TEST_F(StudyVerb, ALongerDurationGoesOnWithTheMembers) {
+    const std::string longer = replaced(four_members, "run.duration=0.1 s", "run.duration=0.15 s");
+    ASSERT_EQ(run_program(words(write(four_members), {"--no-posters"}), {}).status, 0);
+    EXPECT_THAT(run_program(words(write(longer), {"--dry-run"}), {}).out, tells({"goes on", "4 members"}));
+    const Ended ended = run_program(words(write(longer), {"--no-posters"}), {});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, tells({"4 members go on"}));
+    const std::string grown = text_of(out() / "study.csv");
+    EXPECT_EQ(members().size(), 4u);
+    for (const fs::path& member : members())
+        EXPECT_THAT(record(member)["command"].get<std::string>(), HasSubstr("resume")) << "not begun anew";
+    fs::remove_all(out());
+    ASSERT_EQ(run_program(words(write(longer), {"--no-posters"}), {}).status, 0);
+    EXPECT_EQ(text_of(out() / "study.csv"), grown);
+}
+
+// The kinetic energy rises with the shaking, so the search comes to its bracket.
+TEST_F(StudyVerb, SearchesAValue) {
+    const std::string study =
+        write(replaced(replaced(replaced(four_members, "values = [2, 3]",
+                                         "from = 1\nto = 5\nuntil = \"kinetic = 1\"\nwithin = 1"),
+                                "seeds = 2", "seeds = 1"),
+                       "run.duration=0.1 s", "run.duration=0.05 s"));
+    const Ended outside = run_program(words(study, {"--no-posters"}), {});
+    ASSERT_EQ(outside.status, 0) << outside.err;
+    EXPECT_THAT(outside.err, tells({"search", "both ends"}));
+    ASSERT_EQ(table().size(), 3u);
+    const double low = std::stod(table()[1][3]), high = std::stod(table()[2][3]);
+    ASSERT_LT(low, high);
+    const std::string inside = replaced(text_of(folder_ / "study.toml"), "kinetic = 1",
+                                        fmt::format("kinetic = {}", 0.5 * (low + high)));
+    const Ended found = run_program(words(write(inside), {"--no-posters"}), {});
+    ASSERT_EQ(found.status, 0) << found.err;
+    EXPECT_EQ(table().size(), 5u) << "1, 5, and two middles";
+    EXPECT_THAT(found.err, tells({"search: Γ =", "one seed"}));
+    EXPECT_THAT(text_of(out() / "index.html"), HasSubstr("Search: "));
+    const std::string rows = text_of(out() / "settings.csv");
+    const Ended again = run_program(words(write(inside), {"--no-posters"}), {});
+    EXPECT_EQ(text_of(out() / "settings.csv"), rows);
+    EXPECT_THAT(again.err, HasSubstr("search: Γ ="));
 }
 
 TEST_F(StudyVerb, RunsOneVariantAlone) {

@@ -19,8 +19,7 @@
 namespace grainreel {
 namespace {
 
-// Which value of each variation the setting of that number has. From setting to setting the last variation
-// changes fastest.
+// Which value of each variation the setting of that number has.
 std::vector<std::size_t> place_in_grid(const Study& study, std::size_t setting) {
     std::vector<std::size_t> at(study.variations.size());
     for (std::size_t i = at.size(); i-- > 0;) {
@@ -30,18 +29,19 @@ std::vector<std::size_t> place_in_grid(const Study& study, std::size_t setting) 
     return at;
 }
 
-// A hash of everything on which the numbers of a run depend.
+// A hash of everything on which the numbers of a run depend, up to its end.
 std::uint64_t hash_of(FilmedScene scene, const Plan& plan, std::optional<std::uint64_t> seed) {
     scene.film = Film();
     scene.title.clear();
     scene.name.clear();
     scene.run.threads = 1;
     if (seed) scene.run.seed = *seed;
+    scene.run.duration = 1;
     const std::string text = resolved_scene(scene, plan);
     return XXH64(text.data(), text.size(), 0);
 }
 
-std::string name_of_member(const Study& study, const Member& member, std::uint64_t hash) {
+std::string stem_of_member(const Study& study, const Member& member, std::uint64_t hash) {
     std::string name;
     for (std::size_t i = 0; i < member.at.size(); ++i)
         name += fmt::format("{}-{}_", name_of(study.variations[i].key),
@@ -134,22 +134,32 @@ class SharedReach {
 
 }  // namespace
 
-std::vector<Member> make_members(const Study& study, const AcceptSetting& accept) {
-    count_members(study, true);  // throws when there are too many
+std::size_t count_settings(const Study& study) {
     std::size_t settings = 1;
     for (const Variation& variation : study.variations) settings *= variation.values.size();
+    return settings;
+}
+
+Member setting_of(const Study& study, std::size_t number) {
+    Member member;
+    member.setting = number;
+    member.at = place_in_grid(study, number);
+    member.sets = study.sets;
+    for (std::size_t i = 0; i < member.at.size(); ++i) {
+        const Assignments more = study.variations[i].assignments(member.at[i]);
+        member.sets.insert(member.sets.end(), more.begin(), more.end());
+    }
+    return member;
+}
+
+std::vector<Member> make_members(const Study& study, const AcceptSetting& accept) {
+    count_members(study, true);  // throws when there are too many
+    const std::size_t settings = count_settings(study);
     std::vector<Member> members;
     SharedReach reach;
-    std::map<std::uint64_t, std::size_t> known;  // the member with each hash
+    std::map<std::pair<std::string, double>, std::size_t> known;  // the member with each hash and duration
     for (std::size_t setting = 0; setting < settings; ++setting) {
-        Member member;
-        member.setting = setting;
-        member.at = place_in_grid(study, setting);
-        member.sets = study.sets;
-        for (std::size_t i = 0; i < member.at.size(); ++i) {
-            const Assignments more = study.variations[i].assignments(member.at[i]);
-            member.sets.insert(member.sets.end(), more.begin(), more.end());
-        }
+        Member member = setting_of(study, setting);
         const FilmedScene scene =
             read_filmed_scene_text(study.scene_text, study.scene, member.sets, measurable_in);
         const Plan plan = plan_with_film(scene);
@@ -168,9 +178,12 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
                 seeded.seed = seeds[s];
                 seeded.sets.push_back(fmt::format("run.seed={}", *seeded.seed));
             }
-            const std::uint64_t hash = hash_of(scene, plan, seeded.seed);
-            seeded.name = name_of_member(study, seeded, hash);
-            const auto [same, is_new] = known.emplace(hash, members.size());
+            seeded.stem = stem_of_member(study, seeded, hash_of(scene, plan, seeded.seed));
+            seeded.duration = scene.run.duration;
+            seeded.steps = plan.steps;
+            seeded.name = fmt::format("{}_{:.9g}s", seeded.stem, seeded.duration);
+            const auto [same, is_new] = known.emplace(
+                std::pair(seeded.stem.substr(seeded.stem.rfind('_')), seeded.duration), members.size());
             if (!is_new) fail_for_twins(study, members[same->second], seeded);
             members.push_back(std::move(seeded));
         }

@@ -35,15 +35,23 @@ struct Member {
     Assignments sets;     // keys to set: for the whole study, then by the values, the start file, the seed
     Assignments framing;  // the keys that let the pictures of all members show the same part
     std::vector<MemberFile> files;
-    // Name of its folder: a short description, and a hash of its complete scene without what does not change
-    // its numbers (film, title, name, threads). When a study was changed, this hash tells which members are
-    // still the same.
-    std::string name;
+    // Begin of its folder's name: a short description, and a hash of its complete scene without what does not
+    // change its numbers (film, title, name, threads) and without its duration. When a study was changed,
+    // this hash tells which members are still the same, and which may go on from a shorter run.
+    std::string stem;
+    double duration = 0;     // s
+    std::int64_t steps = 0;  // of the run, planned
+    std::string name;        // of its folder: the stem and the duration
 };
 
 // Counts the members. Throws UserError when there are more than `most_members_unasked` and `many_are_meant`
 // is not set, or more than `most_members`.
 std::size_t count_members(const Study& study, bool many_are_meant);
+
+// The setting of that number without its seeds: its place in the grid and its values for keys of the scene.
+// From setting to setting the last variation changes fastest.
+std::size_t count_settings(const Study& study);
+Member setting_of(const Study& study, std::size_t number);
 
 // Makes all members; the seeds of a setting come one after another. Each setting's scene is read, planned,
 // and given to `accept`. Throws UserError at the first member that cannot be run, and for two members that

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
 #include <optional>
 
 #include "engine/base/error.hpp"
@@ -12,6 +15,7 @@
 #include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/scene/text/toml_text.hpp"
 #include "render/app/study/file/variations.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/live_text.hpp"
@@ -28,7 +32,8 @@ const ChoiceWords<Reduction::Kind> reduction_words{{"end", Reduction::Kind::end}
                                                    {"first-passage", Reduction::Kind::first_passage},
                                                    {"max", Reduction::Kind::max},
                                                    {"min", Reduction::Kind::min},
-                                                   {"deviation", Reduction::Kind::deviation}};
+                                                   {"deviation", Reduction::Kind::deviation},
+                                                   {"share", Reduction::Kind::share}};
 
 void read_window(Document& document, const FilmedScene& scene, const std::string& table,
                  Reduction& reduction) {
@@ -45,9 +50,8 @@ void read_window(Document& document, const FilmedScene& scene, const std::string
 void read_threshold(Document& document, const std::string& table, const MeasureColumn& column,
                     Reduction& reduction) {
     const std::string path = table + ".threshold";
-    const bool wanted =
-        reduction.kind == Reduction::Kind::crossing || reduction.kind == Reduction::Kind::first_passage;
-    if (!wanted) return document.refuse(path, "only 'crossing' and 'first-passage' have a threshold");
+    if (!reduction.has_threshold())
+        return document.refuse(path, "only 'crossing', 'first-passage' and 'share' have a threshold");
     if (!document.has(path)) document.fail_missing(path);
     reduction.threshold = *document.quantity(path, column.dimension);
 }
@@ -56,6 +60,7 @@ void read_threshold(Document& document, const std::string& table, const MeasureC
 std::string unit_of(const MeasureColumn& column, Reduction::Kind kind) {
     const std::string of_column = text_of(column.dimension).unit;
     if (kind == Reduction::Kind::crossing || kind == Reduction::Kind::first_passage) return "s";
+    if (kind == Reduction::Kind::share) return "";
     if (kind == Reduction::Kind::slope) return of_column + "/s";
     return of_column == "1" ? "" : of_column;
 }
@@ -76,6 +81,12 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
         if (word == how) measure.reduction.kind = kind;
     measure.name = document.text(table + ".name").value_or(name + "_" + how);
     measure.label = document.text(table + ".label").value_or(fmt::format("{}, {}", column->label, how));
+    if (measure.reduction.kind == Reduction::Kind::share) measure.average = SeedAverage::share;
+    if (document.text(table + ".average") == "median") {
+        if (measure.average == SeedAverage::share)
+            document.fail(table + ".average", "is of no use for 'share', a share of the seeds; leave it out");
+        measure.average = SeedAverage::median;
+    }
     measure.unit = unit_of(*column, measure.reduction.kind);
     measure.place = document.place(table + ".column");
     for (const StudyMeasure& other : study.measures)
@@ -152,6 +163,57 @@ void read_reference(Document& document, const Study& study, const std::string& t
         document.text(table + ".reference_label").value_or(chart.reference->filename().string());
 }
 
+// Two numbers in the unit of an axis: [0, 12], or ["0 mm", "12 mm"].
+std::optional<std::array<double, 2>> read_axis_range(Document& document, const std::string& path,
+                                                     const std::string& unit, bool logarithmic) {
+    if (!document.has(path)) return std::nullopt;
+    std::vector<double> ends;
+    for (const std::string& text : document.value_list(path)) {
+        const auto value = written_number(text);
+        if (!value || !std::isfinite(value->number) || (!value->unit.empty() && value->unit != unit))
+            document.fail(path, fmt::format("must be two numbers{}, such as [0, 1]",
+                                            unit.empty() ? "" : " in " + unit + ", the axis' unit"));
+        ends.push_back(value->number);
+    }
+    if (ends.size() != 2 || !(ends[0] < ends[1]) || (logarithmic && ends[0] <= 0))
+        document.fail(path,
+                      fmt::format("must be two numbers, the smaller one first{}; write for example [{}, 10]",
+                                  logarithmic ? " and larger than 0" : "", logarithmic ? 1 : 0));
+    return {{ends[0], ends[1]}};
+}
+
+void read_x_per(Document& document, const Variation& x, const std::string& path, StudyChart& chart) {
+    if (!document.has(path)) return;
+    if (!x.numeric) document.fail(path, "divides the numbers along x, but x has words; leave it out");
+    const auto value = written_number(document.value(path));
+    if (!value || !(value->number > 0) || !std::isfinite(value->number) ||
+        (!value->unit.empty() && value->unit != x.unit))
+        document.fail(path, fmt::format("must be a number larger than 0{}, by which x is divided",
+                                        x.unit.empty() ? "" : " in " + x.unit + ", the axis' unit"));
+    chart.x_per = value->number;
+    chart.x_per_words = fmt::format("{:.6g}{}{}", value->number, x.unit.empty() ? "" : " ", x.unit);
+}
+
+// How the chart looks: labels, ranges, letters.
+void read_look(Document& document, const Study& study, const std::string& table, StudyChart& chart) {
+    const Variation& x = study.variations[chart.x];
+    chart.x_label = document.text(table + ".x_label").value_or("");
+    chart.y_label = document.text(table + ".y_label").value_or("");
+    read_x_per(document, x, table + ".x_per", chart);
+    if (document.has(table + ".x_range") && !x.numeric)
+        document.fail(table + ".x_range", "is of numbers, but x has words; leave it out");
+    chart.x_range =
+        read_axis_range(document, table + ".x_range", chart.x_per_words.empty() ? x.unit : "", chart.log_x);
+    chart.y_range = read_axis_range(document, table + ".y_range", study.measures[chart.y].unit, chart.log_y);
+    chart.series = document.name_list(table + ".series");
+    if (!chart.series.empty()) chart.series_place = document.place(table + ".series");
+    chart.font = document.text(table + ".font").value_or(chart.font);
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == ' ' || c == '-'; };
+    if (chart.font.empty() || !std::all_of(chart.font.begin(), chart.font.end(), is_plain))
+        document.fail(table + ".font", "must be the name of a font, of letters, digits and spaces");
+    chart.letters = document.quantity(table + ".letters").value_or(chart.letters);
+}
+
 void add_chart(const Document& document, const std::string& table, StudyChart chart, Study& study) {
     for (const StudyChart& other : study.charts)
         if (other.name == chart.name)
@@ -175,6 +237,7 @@ void read_chart(Document& document, const std::string& table, Study& study) {
     chart.log_x = logarithmic == "x" || logarithmic == "both";
     chart.log_y = logarithmic == "y" || logarithmic == "both";
     check_axis(document, study, table, chart);
+    read_look(document, study, table, chart);
     read_reference(document, study, table, chart);
     add_chart(document, table, std::move(chart), study);
 }
@@ -239,6 +302,35 @@ void read_scene_of(Document& document, Study& study) {
     study.scene_text = load_scene_file(study.scene);
 }
 
+// Finds the measure that `until` names, and the wanted value: "angle = 24".
+void complete_search(Study& study) {
+    StudySearch& search = *study.search;
+    const auto fail = [&](const std::string& what) {
+        throw UserError(fmt::format("{}: 'until' is \"{}\", {}", search.place, excerpt(search.words), what));
+    };
+    if (study.variations.size() != 1)
+        fail("but a search has one [[vary]] and no [[variant]]; take the others out");
+    const auto trimmed = [](std::string text) {
+        text.erase(0, text.find_first_not_of(' '));
+        return text.erase(text.find_last_not_of(' ') + 1);
+    };
+    const std::size_t equals = search.words.find('=');
+    if (equals == std::string::npos) fail("but must be a measure and its value, such as \"angle = 24\"");
+    const std::string name = trimmed(search.words.substr(0, equals));
+    const auto value = written_number(quoted(trimmed(search.words.substr(equals + 1))));
+    std::vector<std::string> names;
+    for (const StudyMeasure& measure : study.measures) names.push_back(measure.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        fail(fmt::format("but there is no [[measure]] \"{}\"; there are {}", excerpt(name),
+                         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+    search.measure = static_cast<std::size_t>(found - names.begin());
+    const std::string& unit = study.measures[search.measure].unit;
+    if (!value || !std::isfinite(value->number) || (!value->unit.empty() && value->unit != unit))
+        fail(fmt::format("but the value must be a number{}", unit.empty() ? "" : " in " + unit));
+    search.wanted = value->number;
+}
+
 }  // namespace
 
 Study read_study(const std::filesystem::path& file) {
@@ -255,6 +347,7 @@ Study read_study(const std::filesystem::path& file) {
     for (std::size_t i = 0; i < sets.size(); ++i)
         study.sets.push_back({sets[i], document.place(fmt::format("set[{}]", i))});
     study.seeds = read_seeds(document, "seeds");
+    study.one_stiffness = document.text("stiffness").value_or("shared") == "shared";
     read_variants(document, study);
     for (std::size_t i = 0; i < document.size("vary"); ++i)
         read_variation(document, fmt::format("vary[{}]", i), study);
@@ -264,112 +357,12 @@ Study read_study(const std::filesystem::path& file) {
     const FilmedScene scene = longest_scene(study);
     for (std::size_t i = 0; i < document.size("measure"); ++i)
         read_measure(document, scene, fmt::format("measure[{}]", i), study);
+    if (study.search) complete_search(study);
     for (std::size_t i = 0; i < document.size("chart"); ++i)
         read_chart(document, fmt::format("chart[{}]", i), study);
     if (document.size("chart") == 0) add_usual_charts(study);
     document.check_all_read();
     return study;
-}
-
-namespace {
-
-using namespace keys;
-
-constexpr double largest_seed = 9007199254740992.0;  // the largest one that run.seed takes
-
-Keys top_level() {
-    return {
-        entry("title", KeyKind::text, note("the file's name"), "Above the page."),
-        entry("scene", KeyKind::text, required(),
-              "The scene file that is varied. Counted from the study's folder."),
-        entry("set", KeyKind::name_list, note("none"),
-              "Other values for keys of the scene, in every member, as after `--set`: `[\"run.duration=2 "
-              "s\"]`."),
-        of_dimension(
-            entry("seeds", KeyKind::seeds, note("the scene's one"),
-                  "Each setting is run with so many seeds, 1, 2, 3 ..., or with the seeds of a list."),
-            Dimension::number, {0, largest_seed, false, false}),
-    };
-}
-
-Keys of_variant() {
-    return {
-        entry("variant[].name", KeyKind::text, required(),
-              "What tables, charts and the page call it; `--variant` runs it alone."),
-        entry(
-            "variant[].set", KeyKind::name_list, required(),
-            "Its values for keys of the scene, which come after those of the study: "
-            "`[\"container.depth=27 mm\", \"species.grains.count=9400\"]`. An empty list is the scene as it "
-            "is."),
-        of_dimension(entry("variant[].seeds", KeyKind::seeds, note("those of the study"),
-                           "Its own seeds, so many or a list."),
-                     Dimension::number, {0, largest_seed, false, false}),
-    };
-}
-
-Keys of_vary() {
-    return {
-        entry("vary[].key", KeyKind::text, required(),
-              "The key of the scene, as after `--set`: `drive.g_level`, `species.big.diameter`."),
-        entry("vary[].label", KeyKind::text, note("the key"), "What charts and the page call it."),
-        entry("vary[].values", KeyKind::value_list, note("none"), "Its values, one by one, or a range:"),
-        entry("vary[].from", KeyKind::value, note("none"), "First value of a range."),
-        entry("vary[].to", KeyKind::value, note("none"), "Last value of a range, in the same unit."),
-        integer("vary[].count", 2, static_cast<double>(most_values), note("none"),
-                "So many values, both ends included, or:"),
-        entry("vary[].by", KeyKind::value, note("none"), "From one value to the next."),
-        choice("vary[].spacing", {"linear", "logarithmic"}, literal("\"linear\""),
-               "Equal distances, or equal ratios (with `count`)."),
-    };
-}
-
-Keys of_measure() {
-    return {
-        entry("measure[].column", KeyKind::text, required(),
-              "A column of measures.csv, with or without its unit: `height_difference`, `kinetic`."),
-        choice("measure[].reduce",
-               {"end", "mean", "slope", "crossing", "first-passage", "max", "min", "deviation"}, required(),
-               "How the column becomes one number."),
-        entry("measure[].name", KeyKind::text, note("`COLUMN_REDUCE`"),
-              "Its column in study.csv, and what charts name it by."),
-        entry("measure[].label", KeyKind::text, note("by column and `reduce`"),
-              "What charts and the page call it."),
-        quantity("measure[].from", Dimension::time, not_negative, literal("0"),
-                 "Rows before that time do not count."),
-        quantity("measure[].to", Dimension::time, positive, note("the run's end"),
-                 "Rows after that time do not count."),
-        quantity("measure[].threshold", Dimension::number, any, note("required for crossing, first-passage"),
-                 "In the column's unit."),
-    };
-}
-
-Keys of_chart() {
-    return {
-        entry("chart[].y", KeyKind::text, required(), "The name of a measure."),
-        entry("chart[].x", KeyKind::text, note("the first numeric key"),
-              "A key that is varied, or \"variant\"."),
-        entry("chart[].name", KeyKind::text, note("that of `y`"), "Name of its files."),
-        entry("chart[].title", KeyKind::text, note("none"), "Above the chart."),
-        choice("chart[].logarithmic", {"x", "y", "both", "none"}, literal("\"none\""), "Which axes are."),
-        entry("chart[].reference", KeyKind::text, note("none"),
-              "A CSV file of points to be drawn on it, published ones or one's own: x, y and, when known, "
-              "the error of y. "
-              "Counted from the study's folder."),
-        entry("chart[].reference_label", KeyKind::text, note("the file's name"),
-              "What the legend calls them."),
-    };
-}
-
-}  // namespace
-
-const std::vector<Key>& study_keys() {
-    static const Keys all = [] {
-        Keys keys;
-        for (const Keys& part : {top_level(), of_variant(), of_vary(), of_measure(), of_chart()})
-            keys.insert(keys.end(), part.begin(), part.end());
-        return keys;
-    }();
-    return all;
 }
 
 }  // namespace grainreel

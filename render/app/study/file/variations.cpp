@@ -193,6 +193,37 @@ void read_values(Document& document, const std::string& table, Variation& variat
             {values[i], words_of(values[i]), document.place(fmt::format("{}.values[{}]", table, i)), 0});
 }
 
+// The two ends of a range in which a value is searched, the smaller one first, and how close it is wanted.
+StudySearch read_search(Document& document, const std::string& table, Variation& variation) {
+    StudySearch search;
+    search.place = document.place(table + ".until");
+    search.words = document.required_text(table + ".until");
+    for (const char* other : {"values", "count", "by", "spacing"})
+        document.refuse(table + "." + other, "'until' finds the values between 'from' and 'to'");
+    for (const char* wanted : {"from", "to", "within"})
+        if (!document.has(table + "." + wanted)) document.fail_missing(table + "." + wanted);
+    std::vector<WrittenNumber> ends;
+    try {
+        for (const char* name : {"from", "to", "within"})
+            ends.push_back(required_number(document.value(fmt::format("{}.{}", table, name)), name));
+    } catch (const UserError& mistake) {
+        throw UserError(fmt::format("{}: {}", search.place, mistake.what()));
+    }
+    if (ends[0].unit != ends[1].unit || ends[0].unit != ends[2].unit)
+        document.fail(table + ".within", "has another unit than 'from' or 'to'; write all three in one");
+    if (ends[0].number == ends[1].number)
+        document.fail(table + ".from", "is the same value as 'to'; write two ends");
+    if (!(ends[2].number > 0)) document.fail(table + ".within", "must be larger than 0");
+    if (ends[0].number > ends[1].number) std::swap(ends[0], ends[1]);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::string toml = toml_of(ends[i]);
+        variation.values.push_back({toml, words_of(toml), document.place(table + ".from"), 0});
+    }
+    search.within = ends[2].number;
+    search.written_unit = ends[0].unit;
+    return search;
+}
+
 void read_range(Document& document, const std::string& table, Variation& variation) {
     ValueRange range;
     if (!document.has(table + ".from") || !document.has(table + ".to"))
@@ -239,11 +270,20 @@ void read_variation(Document& document, const std::string& table, Study& study) 
     const auto own = document.text(table + ".label");
     variation.label = own.value_or(variation.key);
     variation.shown = own.value_or(name_in_films(variation.key));
-    if (document.has(table + ".values"))
+    std::optional<StudySearch> search;
+    if (document.has(table + ".until"))
+        search = read_search(document, table, variation);
+    else
+        document.refuse(table + ".within", "there is no 'until'");
+    if (search)
+        study.search = std::move(search);
+    else if (document.has(table + ".values"))
         read_values(document, table, variation);
     else
         read_range(document, table, variation);
     make_numeric(variation, key);
+    if (study.search && !variation.numeric)
+        document.fail(table + ".until", "needs a key of numbers; vary another one");
     study.variations.push_back(std::move(variation));
 }
 

@@ -5,7 +5,9 @@
 #include <signal.h>
 #include <xxhash.h>
 #include <algorithm>
+#include <cstdlib>
 #include <deque>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
@@ -14,6 +16,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
+#include "engine/files/run_json.hpp"
 #include "engine/run/driver/pace.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "render/app/study/members/child.hpp"
@@ -24,16 +27,19 @@ namespace {
 using Status = MemberResult::Status;
 using Json = nlohmann::json;
 
+constexpr const char* kCheckpointName = "checkpoint.grs";
 constexpr int poll_interval = 200;     // ms
 constexpr double packing_share = 0.1;  // share of a member's cost that the progress line assumes for packing
 
 struct Job {
     std::size_t member = 0;
     bool is_poster = false;
+    bool anew = false;  // even if the member has a checkpoint
 };
 
 struct Running {
     Job job;
+    bool goes_on = false;  // from a checkpoint
     Child child;
     double done = 0;         // 0 to 1
     std::string last_error;  // the last error that it has told
@@ -98,11 +104,20 @@ class Runner {
         const Job job = jobs_.front();
         jobs_.pop_front();
         const Member& member = members_[job.member];
+        const bool goes_on = !job.is_poster && !job.anew && can_go_on(job.member);
         std::vector<std::string> words =
             job.is_poster ? poster_command(member, results_[job.member], folder_)
+            : goes_on     ? go_on_command(member, folder_)
                           : run_command(study_, member, folder_, request_.films, request_.cache);
         words.insert(words.end(), {"--progress", "json"});
-        running_.push_back({job, Child(words), 0, ""});
+        running_.push_back({job, goes_on, Child(words), 0, ""});
+    }
+
+    // Whether the member was stopped, or was shorter, and left a checkpoint.
+    bool can_go_on(std::size_t member) const {
+        std::error_code none;
+        return !request_.films && results_[member].status == Status::incomplete &&
+               std::filesystem::exists(folder_.member(members_[member]) / kCheckpointName, none);
     }
 
     void tell_to_stop() {
@@ -147,10 +162,14 @@ class Runner {
     void take(const Running& ended) {
         const std::size_t index = ended.job.member;
         if (ended.job.is_poster) return take_poster(ended);
+        const int status = ended.child.status();
+        if (ended.goes_on && status != 0 && !stopping()) {  // its checkpoint is of no use
+            jobs_.push_front({index, false, true});
+            return;
+        }
         cost_left_ -= cost(index);
         MemberResult& result = results_[index];
-        result = read_result(folder_.member(members_[index]), study_.measures);
-        const int status = ended.child.status();
+        result = read_result(folder_.member(members_[index]), study_.measures, members_[index].steps);
         if (stopping() && result.status != Status::complete) return;
         if (status != 0) {
             result.status = Status::failed;
@@ -286,6 +305,42 @@ std::vector<std::string> run_command(const Study& study, const Member& member, c
         words.push_back(file.key + "=" + quoted(folder.copy_of(file).string()));
     }
     return words;
+}
+
+std::vector<std::string> go_on_command(const Member& member, const StudyFolder& folder) {
+    return {"resume",    folder.member(member).string(),
+            "--until",   fmt::format("{} s", member.duration),
+            "--no-film", "--no-report",
+            "--threads", "1"};
+}
+
+std::vector<ShorterRun> shorter_runs(const std::vector<Member>& members, const StudyFolder& folder) {
+    std::set<std::string> wanted;
+    std::map<std::string, std::size_t> by_stem;  // members that have no folder yet
+    std::error_code none;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        wanted.insert(members[m].name);
+        if (!std::filesystem::exists(folder.member(members[m]), none)) by_stem.emplace(members[m].stem, m);
+    }
+    std::map<std::size_t, std::pair<double, std::filesystem::path>> longest;  // duration and folder
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path / "members", none)) {
+        const std::string name = entry.path().filename().string();
+        const std::size_t end = name.rfind('_');
+        const auto member = by_stem.find(name.substr(0, end));
+        if (end == std::string::npos || member == by_stem.end() || wanted.count(name) > 0) continue;
+        const double duration = std::strtod(name.c_str() + end + 1, nullptr);
+        if (!(duration > 0) || duration >= members[member->second].duration) continue;
+        const ReadRunJson record = read_run_json(entry.path() / "run.json");
+        const bool complete = record.fault.empty() && record.record.status == RunStatus::complete;
+        auto& best = longest[member->second];
+        if (complete && std::filesystem::exists(entry.path() / kCheckpointName, none) &&
+            duration > best.first)
+            best = {duration, entry.path()};
+    }
+    std::vector<ShorterRun> runs;
+    for (const auto& [member, best] : longest)
+        if (best.first > 0) runs.push_back({member, best.second});
+    return runs;
 }
 
 std::vector<std::string> poster_command(const Member& member, const MemberResult& result,

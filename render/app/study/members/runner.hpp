@@ -47,6 +47,18 @@ void make_study_folder(const Study& study, const std::vector<Member>& members, c
 std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,
                                      bool film, bool cache);
 
+// A complete run that is a member's but for its end, which came earlier.
+struct ShorterRun {
+    std::size_t member = 0;
+    std::filesystem::path folder;
+};
+// The longest of these for each member that has not been run. Runs that are members of the study themselves
+// are left alone.
+std::vector<ShorterRun> shorter_runs(const std::vector<Member>& members, const StudyFolder& folder);
+
+// The command by which a member goes on from its checkpoint to its end.
+std::vector<std::string> go_on_command(const Member& member, const StudyFolder& folder);
+
 // The command that draws the last frame of a complete member as its poster.
 std::vector<std::string> poster_command(const Member& member, const MemberResult& result,
                                         const StudyFolder& folder);

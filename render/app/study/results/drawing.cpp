@@ -19,7 +19,8 @@ namespace {
 // Colours of Okabe and Ito (2008), which colour-blind people can tell apart.
 constexpr std::array<const char*, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#000000"};
-constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3};  // gnuplot's numbers of point types
+// gnuplot's numbers of point types: filled, and the same shapes open.
+constexpr std::array<int, 7> marks{7, 5, 9, 11, 13, 15, 3}, open_marks{6, 4, 8, 10, 12, 14, 3};
 
 // Settings that depend on a drawing's size.
 struct Look {
@@ -29,9 +30,25 @@ struct Look {
 // Two names of the key stand side by side. With their marks and gaps, which take 14 letters each, they fill
 // the width of 80 letters.
 const Look screen{{80, 55, 26, 2}, 2};
+constexpr double usual_letters = 8;  // points
+
+// The chart's letters on a paper.
+Paper with_letters(Paper paper, const StudyChart& chart) {
+    paper.font = chart.font, paper.letters = chart.letters;
+    return paper;
+}
 
 Look look_on(const Paper& paper) {
     return {lines_on(paper), 1};
+}
+
+// The look on the screen: larger letters leave room for fewer of them.
+Look screen_look(const StudyChart& chart) {
+    Look look = screen;
+    for (std::size_t* letters : {&look.lines.across, &look.lines.upright, &look.lines.key})
+        *letters = std::max<std::size_t>(
+            8, static_cast<std::size_t>(static_cast<double>(*letters) * usual_letters / chart.letters));
+    return look;
 }
 
 // Number of lines of the longest name in the key (the list of a chart's series). gnuplot lets names overlap
@@ -114,6 +131,26 @@ std::string plot_series(const std::string& table, const ChartSeries& series, std
         table, x, mark, style, title);
 }
 
+bool has_open_points(const std::vector<ChartSeries>& series) {
+    return std::any_of(series.begin(), series.end(), [](const ChartSeries& each) {
+        return std::any_of(each.points.begin(), each.points.end(),
+                           [](const ChartPoint& point) { return !point.y.came_up_everywhere(); });
+    });
+}
+
+// Plots the points that came up in some seeds only: open, and with their number. An arrow stands at a bound,
+// below the true value.
+std::string plot_open(const std::string& table, std::size_t number, const Look& look, const Aside& aside) {
+    const std::string x = fmt::format("(column(1)=={} && column(6)<column(7) ? {} : NaN)", number,
+                                      aside.of("column(2)", number));
+    return fmt::format(
+        "{0} using {1}:(valid(9) ? column(9) : column(3)) with points pt {2} ps 1.1 lc rgb '{3}' lw {4} "
+        "notitle, "
+        "\\\n    {0} using {1}:(valid(9) ? column(9) : column(3)):(sprintf('%s%d of %d', column(10)==1 ? "
+        "'\u2191 ' : '', column(6), column(7))) with labels offset 0,0.9 textcolor rgb '{3}' notitle",
+        table, x, open_marks[number % open_marks.size()], colours[number % colours.size()], look.pen);
+}
+
 // Plots the single seeds of a series as small open points.
 std::string plot_seeds(const std::string& table, std::size_t number, const Look& look, const Aside& aside) {
     return fmt::format(
@@ -128,6 +165,11 @@ std::string plots_of(const StudyChart& chart, const std::vector<ChartSeries>& se
     std::string plots;
     for (std::size_t s = 0; s < series.size(); ++s)
         plots += (s > 0 ? ", \\\n    " : "") + plot_series(table, series[s], s, look, aside);
+    for (std::size_t s = 0; s < series.size() && has_open_points(series); ++s)
+        plots += ", \\\n    " + plot_open(table, s, look, aside);
+    if (has_open_points(series))
+        plots += fmt::format(", \\\n    NaN with points pt 6 ps 1.1 lc rgb 'black' title {}",
+                             gnuplot_lines("not in all seeds (\u2191 more)", look.lines.key));
     for (std::size_t s = 0; s < series.size() && has_seeds(series); ++s)
         plots += ", \\\n    " + plot_seeds(gnuplot_text(stem + ".seeds.csv"), s, look, aside);
     if (has_reference)
@@ -140,27 +182,29 @@ std::string plots_of(const StudyChart& chart, const std::vector<ChartSeries>& se
 std::string axes_and_key(const Study& study, const StudyChart& chart, const std::vector<ChartSeries>& series,
                          bool has_reference, const Look& look) {
     const Variation& axis = study.variations[chart.x];
-    const StudyMeasure& measure = study.measures[chart.y];
     std::string text = fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n",
-                                   gnuplot_lines(axis.title(), look.lines.across),
-                                   gnuplot_lines(measure.title(), look.lines.upright));
+                                   gnuplot_lines(x_title(study, chart), look.lines.across),
+                                   gnuplot_lines(y_title(study, chart), look.lines.upright));
     if (!chart.title.empty())
         text += fmt::format("set title {} noenhanced\n", gnuplot_lines(chart.title, look.lines.across));
     text += fmt::format("set key noenhanced outside above left Left reverse maxcols {} spacing {:.1f}\n",
                         look.lines.keys_a_line,
                         1.1 * static_cast<double>(lines_of_key(
                                   series, has_reference ? chart.reference_label : "", look.lines.key)));
-    text += "set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n";
+    text += fmt::format("set offsets graph 0.03, graph 0.03, graph {}, graph 0.05\n",
+                        has_open_points(series) ? 0.12 : 0.05);
     if (!axis.numeric) text += word_ticks(axis, look.lines.across);
     if (chart.log_x) text += "set logscale x\n";
     if (chart.log_y) text += "set logscale y\n";
+    if (chart.x_range) text += fmt::format("set xrange [{}:{}]\n", (*chart.x_range)[0], (*chart.x_range)[1]);
+    if (chart.y_range) text += fmt::format("set yrange [{}:{}]\n", (*chart.y_range)[0], (*chart.y_range)[1]);
     return text;
 }
 
 bool has_points(const std::vector<ChartSeries>& series) {
     return std::any_of(series.begin(), series.end(), [](const ChartSeries& s) {
         return std::any_of(s.points.begin(), s.points.end(),
-                           [](const ChartPoint& p) { return p.y.count > 0; });
+                           [](const ChartPoint& p) { return p.y.is_seen(); });
     });
 }
 
@@ -173,7 +217,7 @@ std::string chart_stem(const StudyChart& chart) {
 bool has_seeds(const std::vector<ChartSeries>& series) {
     return std::any_of(series.begin(), series.end(), [](const ChartSeries& each) {
         return std::any_of(each.points.begin(), each.points.end(), [](const ChartPoint& point) {
-            return point.values.size() > 1 && point.values.size() <= few_values;
+            return point.y.values.size() > 1 && point.y.values.size() <= few_values;
         });
     });
 }
@@ -182,20 +226,20 @@ std::string seed_table(const std::vector<ChartSeries>& series) {
     std::string text = "series,x,value\n";
     for (std::size_t s = 0; s < series.size(); ++s)
         for (const ChartPoint& point : series[s].points)
-            if (point.values.size() > 1 && point.values.size() <= few_values)
-                for (const double value : point.values)
+            if (point.y.values.size() > 1 && point.y.values.size() <= few_values)
+                for (const double value : point.y.values)
                     text += fmt::format("{},{},{}\n", s, point.x, gnuplot_number(value));
     return text;
 }
 
 std::string chart_table(const std::vector<ChartSeries>& series) {
-    std::string text = "series,x,mean,low,high,values,members,name\n";
+    std::string text = "series,x,mean,low,high,values,members,name,of_some,bound\n";
     for (std::size_t s = 0; s < series.size(); ++s)
         for (const ChartPoint& point : series[s].points)
-            text += fmt::format("{},{},{},{},{},{},{},{}\n", s, point.x, gnuplot_number(point.y.mean),
-                                gnuplot_number(point.y.mean - point.y.half),
-                                gnuplot_number(point.y.mean + point.y.half), point.y.count, point.members,
-                                csv_cell(on_one_line(series[s].name)));
+            text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s, point.x, gnuplot_number(point.y.value),
+                                gnuplot_number(point.y.low), gnuplot_number(point.y.high), point.y.count,
+                                point.y.members, csv_cell(on_one_line(series[s].name)),
+                                gnuplot_number(point.y.of_some), point.y.is_bound ? 1 : 0);
     return text;
 }
 
@@ -204,14 +248,17 @@ std::string chart_commands(const Study& study, const StudyChart& chart,
     const std::string stem = chart_stem(chart);
     std::string text = fmt::format("# Draws the table beside it: gnuplot {}.gp\n", stem);
     text += paper_style();
-    text += axes_and_key(study, chart, series, has_reference, screen);
+    const Look look = screen_look(chart);
+    const double larger = chart.letters / usual_letters;
+    text += axes_and_key(study, chart, series, has_reference, look);
     text += fmt::format(
         "do for [form in 'svg png'] {{\n"
-        "    if (form eq 'svg') {{ set terminal svg noenhanced size 800,560 font 'DejaVu Sans,14' background "
+        "    if (form eq 'svg') {{ set terminal svg noenhanced size 800,560 font '{0},{1:.4g}' background "
         "'white' }}\n"
-        "    else {{ set terminal pngcairo noenhanced size 1200,840 font 'DejaVu Sans,18' }}\n"
-        "    set output {}.'.'.form\n    plot {}\n}}\n",
-        gnuplot_text(stem), plots_of(chart, series, has_reference, screen));
+        "    else {{ set terminal pngcairo noenhanced size 1200,840 font '{0},{2:.4g}' }}\n"
+        "    set output {3}.'.'.form\n    plot {4}\n}}\n",
+        chart.font, 14 * larger, 18 * larger, gnuplot_text(stem),
+        plots_of(chart, series, has_reference, look));
     return text;
 }
 
@@ -246,7 +293,6 @@ std::vector<std::filesystem::path> print_charts(const Study& study, const std::v
     std::error_code failure;
     if (!std::filesystem::create_directories(folder, failure) && failure)
         throw UserError(fmt::format("--charts {}: cannot be made ({})", folder.string(), failure.message()));
-    const Look look = look_on(paper);
     std::vector<std::filesystem::path> files;
     for (std::size_t i = 0; i < study.charts.size(); ++i) {
         const StudyChart& chart = study.charts[i];
@@ -254,12 +300,14 @@ std::vector<std::filesystem::path> print_charts(const Study& study, const std::v
         if (!has_points(series)) continue;
         const std::string stem = chart_stem(chart);
         const bool has_reference = !references[i].empty();
+        const Paper own = with_letters(paper, chart);
+        const Look look = look_on(own);
         replace_file(folder / (stem + ".csv"), chart_table(series));
         if (has_seeds(series)) replace_file(folder / (stem + ".seeds.csv"), seed_table(series));
         if (has_reference) replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
         for (auto& file : draw_on_paper(
                  folder, stem, paper_style() + axes_and_key(study, chart, series, has_reference, look),
-                 plots_of(chart, series, has_reference, look), paper))
+                 plots_of(chart, series, has_reference, look), own))
             files.push_back(std::move(file));
     }
     return files;

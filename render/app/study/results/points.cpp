@@ -1,8 +1,8 @@
 #include "render/app/study/results/points.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -14,77 +14,61 @@
 #include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
-namespace {
-
-struct Sample {
-    std::vector<double> values;
-    std::size_t members = 0;
-
-    void add(const MemberResult& result, std::size_t measure) {
-        if (result.status != MemberResult::Status::complete) return;
-        ++members;
-        values.push_back(result.values[measure]);
-    }
-};
-
-}  // namespace
 
 std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Member>& members,
                                       const std::vector<MemberResult>& results, const StudyChart& chart) {
     const Variation& axis = study.variations[chart.x];
     std::vector<std::string> names;  // in order of appearance
-    std::map<std::pair<std::string, double>, Sample> samples;
+    std::map<std::pair<std::string, double>, std::vector<SeedValue>> seeds;
     for (std::size_t m = 0; m < members.size(); ++m) {
         const std::string name = shown_setting(study, members[m], chart.x);
         const std::size_t value = members[m].at[chart.x];
-        const double x = axis.numeric ? axis.values[value].number : static_cast<double>(value);
+        const double x = axis.numeric ? axis.values[value].number / chart.x_per : static_cast<double>(value);
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-        samples[{name, x}].add(results[m], chart.y);
+        std::vector<SeedValue>& there = seeds[{name, x}];
+        if (results[m].status == MemberResult::Status::complete)
+            there.push_back(results[m].seed_value(chart.y));
     }
+    if (!chart.series.empty()) names = chart.series;
     std::vector<ChartSeries> all;
     for (const std::string& name : names) {
         ChartSeries series{name, {}};
-        for (auto at = samples.lower_bound({name, -std::numeric_limits<double>::infinity()});
-             at != samples.end() && at->first.first == name; ++at) {
-            std::vector<double> finite = at->second.values;
-            std::erase_if(finite, [](double value) { return !std::isfinite(value); });
+        for (auto point = seeds.lower_bound({name, -std::numeric_limits<double>::infinity()});
+             point != seeds.end() && point->first.first == name; ++point)
             series.points.push_back(
-                {at->first.second, mean_interval(at->second.values), at->second.members, std::move(finite)});
-        }
+                {point->first.second, summary_of(study.measures[chart.y].average, point->second)});
         all.push_back(std::move(series));
     }
     return all;
 }
 
-MeanInterval setting_interval(const std::vector<Member>& members, const std::vector<MemberResult>& results,
-                              std::size_t setting, std::size_t measure) {
-    Sample sample;
-    const auto first = std::partition_point(members.begin(), members.end(),
-                                            [&](const Member& m) { return m.setting < setting; });
-    for (auto m = first; m != members.end() && m->setting == setting; ++m)
-        sample.add(results[static_cast<std::size_t>(m - members.begin())], measure);
-    return mean_interval(sample.values);
+void check_series(const Study& study, const std::vector<Member>& members) {
+    for (const StudyChart& chart : study.charts) {
+        std::vector<std::string> names;
+        for (const Member& member : members) {
+            const std::string name = shown_setting(study, member, chart.x);
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        }
+        for (const std::string& name : chart.series)
+            if (std::find(names.begin(), names.end(), name) == names.end())
+                throw UserError(fmt::format("{}: names a series \"{}\"; the chart has {}", chart.series_place,
+                                            excerpt(name),
+                                            names.size() == 1 && names[0].empty()
+                                                ? "one alone, without a name"
+                                                : excerpt(fmt::format("{}", fmt::join(names, "; ")))));
+    }
 }
 
-std::string interval_text(const MeanInterval& interval) {
-    if (interval.count == 0) return "–";
-    const auto with_minus = [](std::string text) {
-        return text.starts_with('-') ? "−" + text.substr(1) : text;
-    };
-    if (interval.count == 1) return with_minus(fmt::format("{:.4g}", interval.mean));
-    const double half = interval.half;
-    if (!(half > 0) || !std::isfinite(half))
-        return fmt::format("{} ± {:.2g}", with_minus(fmt::format("{:.4g}", interval.mean)), half);
-    // Two digits of the half: 0.0312 has three decimals, 312 is rounded to tens.
-    const int decimals = 1 - static_cast<int>(std::floor(std::log10(half) + 1e-12));
-    const double digit = std::pow(10, -decimals);
-    const auto rounded = [&](double value) {
-        const double shown = std::round(value / digit) * digit;
-        return with_minus(fmt::format("{:.{}f}", shown == 0 ? 0 : shown, std::max(0, decimals)));
-    };
-    if (std::abs(interval.mean) >= 1e6 || half < 1e-4)
-        return fmt::format("{} ± {:.2g}", with_minus(fmt::format("{:.4g}", interval.mean)), half);
-    return fmt::format("{} ± {}", rounded(interval.mean), rounded(half));
+std::string x_title(const Study& study, const StudyChart& chart) {
+    const Variation& axis = study.variations[chart.x];
+    if (chart.x_per_words.empty())
+        return axis_title(chart.x_label.empty() ? axis.shown : chart.x_label, axis.unit);
+    return chart.x_label.empty() ? fmt::format("{} / {}", axis.shown, chart.x_per_words) : chart.x_label;
+}
+
+std::string y_title(const Study& study, const StudyChart& chart) {
+    const StudyMeasure& measure = study.measures[chart.y];
+    return axis_title(chart.y_label.empty() ? measure.label : chart.y_label, measure.unit);
 }
 
 std::vector<ReferencePoint> read_reference(const std::filesystem::path& file) {

@@ -1,22 +1,20 @@
-// The points of a study's charts: means over seeds with their 95 % intervals, and points from elsewhere
-// (another paper, an experiment) that are drawn beside them.
+// The points of a study's charts: what the seeds of each setting say, and points from elsewhere (another
+// paper, an experiment) that are drawn beside them.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "engine/questions/statistics.hpp"
 #include "render/app/study/file/members.hpp"
-#include "render/app/study/results/results.hpp"
+#include "render/app/study/results/summary.hpp"
 
 namespace grainreel {
 
 struct ChartPoint {
-    double x = 0;  // in the axis' unit; for an axis of words the number of the word, from 0
-    MeanInterval y;
-    std::size_t members = 0;          // number of complete members; y.count of them have a value
-    std::vector<double> values = {};  // of the seeds; those that are not finite are left out
+    double x = 0;  // in the axis' unit, divided by the chart's x_per; for an axis of words the number of the
+                   // word, from 0
+    SeedSummary y;
 };
 
 // So few values are drawn one by one beside their mean: an interval of two to four says little.
@@ -27,16 +25,16 @@ struct ChartSeries {
     std::string name;                // "species.nut.diameter = 9 mm"; empty when there is one series alone
     std::vector<ChartPoint> points;  // by rising x
 };
+// All series of the chart, or those that it names.
 std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Member>& members,
                                       const std::vector<MemberResult>& results, const StudyChart& chart);
 
-// The interval of a measure over the seeds of a setting. members: in the order of make_members().
-MeanInterval setting_interval(const std::vector<Member>& members, const std::vector<MemberResult>& results,
-                              std::size_t setting, std::size_t measure);
+// Throws UserError when a chart names a series that the study does not have.
+void check_series(const Study& study, const std::vector<Member>& members);
 
-// The interval as text: "0.412 ± 0.031", the mean and half of its 95 % interval. The half has two digits, and
-// the mean as many decimals. For one value it is the value alone, for none a dash.
-std::string interval_text(const MeanInterval& interval);
+// What stands along the axes of a chart: "d of nut / 2 mm", "rise, mean (J)".
+std::string x_title(const Study& study, const StudyChart& chart);
+std::string y_title(const Study& study, const StudyChart& chart);
 
 // A point from elsewhere, which a chart shows for comparison.
 struct ReferencePoint {

@@ -8,6 +8,7 @@
 
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_json.hpp"
+#include "render/app/study/results/summary.hpp"
 
 namespace grainreel {
 namespace {
@@ -19,7 +20,8 @@ Status status_of(const std::string& status) {
     return status == "failed" ? Status::failed : Status::incomplete;
 }
 
-void read_record(const std::filesystem::path& path, MemberResult& result) {
+// Returns how many steps were planned; 0 where that is not known.
+std::int64_t read_record(const std::filesystem::path& path, MemberResult& result) {
     const ReadRunJson read = read_run_json(path);
     result.status = status_of(read.status);
     result.error = read.record.error;
@@ -27,6 +29,7 @@ void read_record(const std::filesystem::path& path, MemberResult& result) {
     result.simulated = read.record.simulated;
     result.particle_steps_per_second = read.record.particle_steps_per_second;
     result.has_film = read.record.film_frames.value_or(0) > 0;
+    return read.record.steps_planned;
 }
 
 }  // namespace
@@ -45,11 +48,22 @@ std::string to_string(Status status) {
     return "complete";
 }
 
-MemberResult read_result(const std::filesystem::path& folder, const std::vector<StudyMeasure>& measures) {
+SeedValue MemberResult::seed_value(std::size_t measure) const {
+    SeedValue seed;
+    if (measure < values.size()) seed.value = values[measure];
+    if (measure < until.size()) seed.until = until[measure];
+    return seed;
+}
+
+MemberResult read_result(const std::filesystem::path& folder, const std::vector<StudyMeasure>& measures,
+                         std::int64_t steps) {
     MemberResult result;
     if (!std::filesystem::exists(folder / "run.json")) return result;
-    read_record(folder / "run.json", result);
+    const std::int64_t planned = read_record(folder / "run.json", result);
+    if (result.status == Status::complete && planned > 0 && planned < steps)
+        result.status = Status::incomplete;
     result.values.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
+    result.until = result.values;
     if (result.status != Status::complete) return result;
     const auto table = read_measures(folder / "measures.csv");
     if (table == nullptr) {
@@ -59,8 +73,11 @@ MemberResult read_result(const std::filesystem::path& folder, const std::vector<
     const std::vector<double> times = table->all("time_s");
     for (std::size_t i = 0; i < measures.size(); ++i) {
         const std::vector<double> values = table->all(measures[i].column);
-        if (!times.empty() && values.size() == times.size())
-            result.values[i] = reduce(measures[i].reduction, times, values);
+        if (times.empty() || values.size() != times.size()) continue;
+        const Reduction& how = measures[i].reduction;
+        result.values[i] = reduce(how, times, values);
+        if (std::isnan(result.values[i]) && how.kind == Reduction::Kind::first_passage)
+            result.until[i] = last_time(how, times, values);
     }
     return result;
 }
@@ -76,13 +93,31 @@ std::string heading(const Variation& variation) {
     return variation.unit.empty() ? variation.key : fmt::format("{} [{}]", variation.key, variation.unit);
 }
 
-// The heads of the columns, in the order in which study_table() fills a row.
-std::vector<std::string> header(const Study& study) {
+std::vector<std::string> key_headings(const Study& study) {
     std::vector<std::string> cells;
     for (const Variation& variation : study.variations) cells.push_back(heading(variation));
+    return cells;
+}
+
+std::vector<std::string> key_cells(const Study& study, const Member& member) {
+    std::vector<std::string> cells;
+    for (std::size_t i = 0; i < study.variations.size(); ++i) {
+        const Variation::Value& value = study.variations[i].values[member.at[i]];
+        cells.push_back(study.variations[i].numeric ? csv_number(value.number) : value.words);
+    }
+    return cells;
+}
+
+// The heads of the columns, in the order in which study_table() fills a row.
+std::vector<std::string> header(const Study& study) {
+    std::vector<std::string> cells = key_headings(study);
     if (study.has_seeds()) cells.push_back("run.seed");
     cells.push_back("state");
-    for (const StudyMeasure& measure : study.measures) cells.push_back(measure.name);
+    for (const StudyMeasure& measure : study.measures) {
+        cells.push_back(measure.name);
+        if (measure.reduction.has_threshold() && measure.reduction.kind != Reduction::Kind::share)
+            cells.push_back(measure.name + "_came_up");
+    }
     cells.insert(cells.end(), {"warnings", "error", "folder"});
     return cells;
 }
@@ -105,19 +140,43 @@ std::string study_table(const Study& study, const std::vector<Member>& members,
     std::string text = row_of(header(study));
     for (std::size_t m = 0; m < members.size(); ++m) {
         const MemberResult& result = results[m];
-        std::vector<std::string> cells;
-        for (std::size_t i = 0; i < study.variations.size(); ++i) {
-            const Variation& variation = study.variations[i];
-            const Variation::Value& value = variation.values[members[m].at[i]];
-            cells.push_back(variation.numeric ? csv_number(value.number) : value.words);
-        }
+        std::vector<std::string> cells = key_cells(study, members[m]);
         if (study.has_seeds())
             cells.push_back(members[m].seed ? std::to_string(*members[m].seed) : std::string());
         cells.push_back(to_string(result.status));
-        for (std::size_t i = 0; i < study.measures.size(); ++i)
-            cells.push_back(i < result.values.size() ? csv_number(result.values[i]) : "");
+        for (std::size_t i = 0; i < study.measures.size(); ++i) {
+            const Reduction& how = study.measures[i].reduction;
+            const double value = result.seed_value(i).value;
+            cells.push_back(csv_number(value));
+            if (!how.has_threshold() || how.kind == Reduction::Kind::share) continue;
+            cells.emplace_back(result.status != Status::complete ? "" : std::isnan(value) ? "0" : "1");
+        }
         cells.push_back(std::to_string(result.warnings.size()));
         cells.insert(cells.end(), {result.error, "members/" + members[m].name});
+        text += row_of(cells);
+    }
+    return text;
+}
+
+std::string setting_table(const Study& study, const std::vector<Member>& members,
+                          const std::vector<MemberResult>& results) {
+    std::vector<std::string> head = key_headings(study);
+    head.insert(head.end(), {"members", "complete"});
+    for (const StudyMeasure& measure : study.measures)
+        for (const char* part : {"", "_low", "_high", "_came_up", "_at_least"})
+            head.push_back(measure.name + part);
+    std::string text = row_of(head);
+    for (const Member& member : members) {
+        if (member.seed_index > 0) continue;
+        std::vector<std::string> cells = key_cells(study, member);
+        cells.push_back(std::to_string(study.seed_count(member.at)));
+        cells.push_back(std::to_string(setting_complete(members, results, member.setting)));
+        for (std::size_t i = 0; i < study.measures.size(); ++i) {
+            const SeedSummary all = setting_summary(study, members, results, member.setting, i);
+            const double bound = all.is_bound ? all.of_some : SeedSummary::kNone;
+            cells.insert(cells.end(), {csv_number(all.value), csv_number(all.low), csv_number(all.high),
+                                       std::to_string(all.count), csv_number(bound)});
+        }
         text += row_of(cells);
     }
     return text;
