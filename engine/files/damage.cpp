@@ -50,6 +50,7 @@ std::optional<std::string> grain_fault(const State& f, std::size_t i, std::size_
         return says(fmt::format("the spin {} rad/s", vector_text(f.spin[i])));
     if (!f.orientation.empty() && !within(f.orientation[i].norm() - 1, float_room))
         return says("an orientation that is no unit quaternion");
+    if (!f.shape.empty() && !is_possible(f.shape[i])) return says("a shape that no grain has");
     if (!f.mass.empty() && !(f.mass[i] > 0 && std::isfinite(f.mass[i])))
         return says(fmt::format("a mass of {:.3g} kg", f.mass[i]));
     if (!f.contact_number.empty() && f.contact_number[i] < 0)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/vector.hpp"
+#include "engine/state/grain_shape.hpp"
 #include "engine/state/pose.hpp"
 
 namespace grainreel {
@@ -42,10 +43,11 @@ struct State {
     // unknown, also in one component alone; then it is NaN.
     std::vector<std::int32_t> id;
     std::vector<std::int32_t> species;
-    std::vector<double> radius;
+    std::vector<double> radius;  // of a grain with a shape: that of the sphere with its volume
     std::vector<double> mass;  // empty where all grains have the density of their species
     std::vector<Vec3> position, velocity, spin;
     std::vector<Quaternion> orientation;  // empty unless the scene asks for it
+    std::vector<GrainShape> shape;  // empty where all grains are spheres; with shapes go orientations
     std::vector<std::int32_t>
         contact_number;  // number of contacts of a grain that carry force; empty where unknown
 

@@ -365,6 +365,36 @@ TEST(ShapesOfGrains, AreToldWhereTheyAreNoSpheres) {
     EXPECT_THAT(news("radius blockiness1 blockiness2", "1 0 0 0 0.1 2 8\n"),
                 tells({"no spheres", "blockiness2", "radius"}));
     EXPECT_EQ(news("shapex shapey shapez blockiness1", "1 0 0 0 0.1 0.1 0.1 2\n"), "");
+    EXPECT_THAT(news("shapex shapey shapez quatw quati quatj quatk", "1 0 0 0 0.4 0.1 0.1 1 0 0 0\n"),
+                tells({"no spheres", "ellipsoids", "same volume"}));
+}
+
+// LAMMPS' columns hold whole lengths, LIGGGHTS' half lengths; both with the real part of the quaternion first.
+TEST(ShapesOfGrains, AreReadWhereTheirAxesAreKnown) {
+    const TemporaryFolder folder;
+    const auto read = [&](const char* names, const char* row, const ReadingOptions& options = {}) {
+        write_text(folder / "a.dump", one_frame(std::string("id x y z ") + names, row, 1));
+        return ForeignArchive(folder / "a.dump", options).grains(0);
+    };
+    const State lammps =
+        read("shapex shapey shapez quatw quati quatj quatk", "1 0 0 0 0.4 0.2 0.1 0.6 0 0.8 0\n");
+    ASSERT_EQ(lammps.shape.size(), 1u);
+    EXPECT_EQ(lammps.shape[0].half, Vec3(0.2, 0.1, 0.05));
+    EXPECT_EQ(lammps.orientation[0].coeffs(), Quaternion(0.6, 0, 0.8, 0).coeffs());
+    EXPECT_NEAR(lammps.radius[0], 0.1, 1e-12);  // (0.2 x 0.1 x 0.05)^(1/3)
+    const char* of_liggghts = "radius shapex shapey shapez quat1 quat2 quat3 quat4 blockiness1 blockiness2";
+    const State liggghts = read(of_liggghts, "1 0 0 0 0.5 0.4 0.2 0.1 0.6 0 0.8 0 8 2\n");
+    EXPECT_EQ(liggghts.shape[0].half, Vec3(0.4, 0.2, 0.1));
+    EXPECT_EQ(liggghts.shape[0].along, 8);
+    EXPECT_EQ(liggghts.shape[0].around, 2);
+    ReadingOptions options;
+    options.radius = 0.3;
+    const State spheres = read(of_liggghts, "1 0 0 0 0.5 0.4 0.2 0.1 0.6 0 0.8 0 8 2\n", options);
+    EXPECT_TRUE(spheres.shape.empty());
+    EXPECT_EQ(spheres.radius[0], 0.3);
+    for (const char* absurd : {"1 0 0 0 0.5 0 0.2 0.1 1 0 0 0 8 2\n", "1 0 0 0 0.5 0.4 0.2 0.1 1 0 0 0 1 2\n",
+                               "1 0 0 0 0.5 nan 0.2 0.1 1 0 0 0 8 2\n", "1 0 0 0 0.5 1e9 0.2 0.1 1 0 0 0 8 2\n"})
+        EXPECT_THROW(read(of_liggghts, absurd), UserError) << absurd;
 }
 
 TEST(AbsurdPlaces, OfWallsAreRefused) {

@@ -272,6 +272,7 @@ StateSupply ForeignArchive::supply() const {
     supply.spins = meaning_->has_spins();
     supply.masses = meaning_->has_masses();
     supply.orientations = meaning_->has_orientations();
+    supply.shapes = meaning_->has_shapes();
     supply.contacts = has_contacts_;
     return supply;
 }

@@ -9,7 +9,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
-#include "engine/files/foreign/grain_shapes.hpp"
 #include "engine/files/foreign/names.hpp"
 
 namespace grainreel {
@@ -84,6 +83,9 @@ GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const R
     type_ = find("type");
     find_places(table);
     if (flat_) check_flat(frame);
+    quaternion_ = {find("qw"), find("qx"), find("qy"), find("qz")};
+    shapes_ = ShapeColumns(table, options_, file_);
+    has_shapes_ = !shapes_.telling().empty() && shapes_.has_extents() && has_orientations() && !is_radius_said();
     find_radius(table);
     density_ = find("density");
     mass_ = find("mass");
@@ -93,10 +95,9 @@ GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const R
         if (const auto unit = unit_in_name(velocity_[axis], Dimension::speed)) velocity_unit_[axis] = *unit;
     }
     spin_ = {find("wx"), find("wy"), find("wz")};
-    quaternion_ = {find("qw"), find("qx"), find("qy"), find("qz")};
     refuse_words(table);
     tell_of_unwrapped(frame);
-    tell_of_shapes(table);
+    tell_of_shapes();
     if (!units_.real)
         guesses_.push_back(fmt::format("{}: has units lj; one unit of length is drawn as 1 m", file_));
 }
@@ -106,6 +107,7 @@ void GrainMeaning::refuse_words(const RawTable& table) const {
     for (const auto& three : {place_, velocity_, spin_})
         columns.insert(columns.end(), three.begin(), three.end());
     columns.insert(columns.end(), quaternion_.begin(), quaternion_.end());
+    for (const std::size_t column : shapes_.all()) columns.emplace_back(column);
     for (const Column& column : columns)
         if (column && !table.columns[*column].words.empty())
             throw UserError(
@@ -140,15 +142,24 @@ void GrainMeaning::tell_of_unwrapped(const RawFrame& frame) {
                     file_, names));
 }
 
-void GrainMeaning::tell_of_shapes(const RawTable& table) {
-    const std::vector<std::string> names = columns_of_other_shapes(table);
-    if (names.empty()) return;
+void GrainMeaning::tell_of_shapes() {
+    if (shapes_.telling().empty()) return;
+    const std::string beginning = fmt::format("{}: has grains that are no spheres ({})", file_,
+                                              fmt::join(shapes_.telling(), ", "));
+    if (has_shapes_) {
+        guesses_.push_back(
+            fmt::format("{}; they are drawn as {}, and measured as spheres of the same volume", beginning,
+                        shapes_.any_blockiness() ? "superquadrics" : "ellipsoids"));
+        return;
+    }
     const std::string size = radius_ ? fmt::format("the {} in its column {}",
                                                    is_diameter_ ? "diameter" : "radius", names_[*radius_])
                                      : std::string("the radius of --radius");
+    const std::string why = is_radius_said()         ? ""
+                            : shapes_.has_extents() ? "; it does not say how they are turned"
+                                                    : "; it does not say how long they are along their axes";
     guesses_.push_back(
-        fmt::format("{}: has grains that are no spheres ({}); they are drawn and measured as spheres with {}",
-                    file_, fmt::join(names, ", "), size));
+        fmt::format("{}; they are drawn and measured as spheres with {}{}", beginning, size, why));
 }
 
 std::optional<double> GrainMeaning::unit_in_name(Column column, Dimension dimension) {
@@ -201,15 +212,20 @@ void GrainMeaning::check_flat(const RawFrame& frame) const {
                         file_, names_in(frame.grains)));
 }
 
+bool GrainMeaning::is_radius_said() const {
+    return options_.radius || !options_.radius_of_type.empty() || options_.columns.count("radius") > 0 ||
+           options_.columns.count("diameter") > 0;
+}
+
 void GrainMeaning::find_radius(const RawTable& table) {
-    const bool said = options_.radius || !options_.radius_of_type.empty();
-    if (said) return;
+    if (options_.radius || !options_.radius_of_type.empty()) return;
     const bool named = options_.columns.count("diameter") > 0 && options_.columns.count("radius") == 0;
     if (!named) radius_ = column_for("radius", table, options_, file_);
     if (!radius_) {
         radius_ = column_for("diameter", table, options_, file_);
         is_diameter_ = radius_.has_value();
     }
+    if (!radius_ && has_shapes_) return;
     if (!radius_) refuse_contacts(table, file_);
     if (!radius_)
         throw UserError(

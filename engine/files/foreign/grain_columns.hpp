@@ -11,6 +11,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/gaps.hpp"
+#include "engine/files/foreign/grain_shapes.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/state_archive.hpp"
@@ -52,6 +53,9 @@ class GrainMeaning {
     bool has_orientations() const {
         return quaternion_[0] && quaternion_[1] && quaternion_[2] && quaternion_[3];
     }
+    // Whether grains are drawn as ellipsoids or superquadrics: some are, their axes are known, and the user
+    // names no radius.
+    bool has_shapes() const { return has_shapes_; }
     // Whether grains have masses of their own; only if the user says no density.
     bool has_masses() const { return (density_ || mass_) && !options_.density; }
     const UnitSystem& units() const { return units_; }
@@ -83,10 +87,12 @@ class GrainMeaning {
     void find_radius(const RawTable& table);
     Vec3 place_of(const RawFrame& raw, std::size_t row) const;
     void tell_of_unwrapped(const RawFrame& frame);
-    void tell_of_shapes(const RawTable& table);
+    void tell_of_shapes();
+    bool is_radius_said() const;
     void refuse_words(const RawTable& table) const;
     void add_grain(const RawFrame& raw, std::size_t row, const std::string& place, State& state,
                    Gaps& gaps) const;
+    void add_shape(const RawTable& table, std::size_t row, const std::string& place, State& state) const;
     double mass_in(const RawTable& table, std::size_t row, double radius) const;
     double radius_of(const RawFrame& raw, std::size_t row, const std::string& place) const;
     std::string type_of(const RawFrame& raw, std::size_t row) const;
@@ -111,6 +117,8 @@ class GrainMeaning {
     std::array<bool, 3> unwrapped_{};     // places that went on where a grain left a periodic box
     bool flat_ = false;                   // there is no column of z
     std::array<Column, 4> quaternion_{};  // w x y z
+    ShapeColumns shapes_;
+    bool has_shapes_ = false;
     std::vector<std::string> guesses_;
 };
 

@@ -102,6 +102,21 @@ double GrainMeaning::mass_in(const RawTable& table, std::size_t row, double radi
     return mass > 0 && std::isfinite(mass) ? mass : kUnknown;
 }
 
+void GrainMeaning::add_shape(const RawTable& table, std::size_t row, const std::string& place,
+                             State& state) const {
+    const GrainShape shape = shapes_.shape(table, row, place_unit_);
+    const double radius = is_possible(shape) ? radius_by_volume(shape) : 0;
+    if (!(radius > 0 && radius <= kLargestRadius))
+        throw UserError(fmt::format(
+            "{}: the grain in row {} has the half lengths {:g}, {:g}, {:g} m and the powers {:g} and {:g}, which no "
+            "grain has (lengths are above 0, powers from 2 to {:g}); mend the row, or let --radius draw all grains as "
+            "spheres",
+            place, row + 1, shape.half.x(), shape.half.y(), shape.half.z(), shape.along, shape.around,
+            kMostBlockiness));
+    state.shape.push_back(shape);
+    state.radius.push_back(radius);
+}
+
 void GrainMeaning::add_grain(const RawFrame& raw, std::size_t row, const std::string& place, State& state,
                              Gaps& gaps) const {
     const RawTable& table = raw.grains;
@@ -113,7 +128,10 @@ void GrainMeaning::add_grain(const RawFrame& raw, std::size_t row, const std::st
             fmt::format("{}: grain {} is at ({:.3g}, {:.3g}, {:.3g}) m, where no bed reaches; is "
                         "the file damaged, or are its units others (--units)?",
                         place, id, where.x(), where.y(), where.z()));
-    state.radius.push_back(radius_of(raw, row, place));
+    if (has_shapes())
+        add_shape(table, row, place, state);
+    else
+        state.radius.push_back(radius_of(raw, row, place));
     state.position.push_back(where);
     Vec3 velocity(0, 0, 0), spin(0, 0, 0);
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,7 +1,6 @@
 #include "engine/files/foreign/grain_shapes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "engine/base/word_reader.hpp"
@@ -10,45 +9,71 @@ namespace grainreel {
 
 namespace {
 
-// Names of columns that say how far a grain reaches along its three axes: LAMMPS and LIGGGHTS, OVITO, VTK.
-constexpr std::array<std::array<const char*, 3>, 5> kExtents{
-    {{"shapex", "shapey", "shapez"},
-     {"c_shape[1]", "c_shape[2]", "c_shape[3]"},
-     {"asphericalshapex", "asphericalshapey", "asphericalshapez"},
-     {"aspherical_shape:0", "aspherical_shape:1", "aspherical_shape:2"},
-     {"shape:0", "shape:1", "shape:2"}}};
-constexpr std::array<const char*, 2> kBlockiness{"blockiness1", "blockiness2"};
+constexpr double kHair = 1e-3;  // by which shapes of spheres may differ from spheres, of themselves
 
-const RawColumn* named(const RawTable& table, const char* name) {
-    for (const RawColumn& column : table.columns)
-        if (same_word(column.name, name)) return &column;
-    return nullptr;
+std::optional<std::array<std::size_t, 3>> three_columns(const std::array<const char*, 3>& meanings,
+                                                        const RawTable& table, const ReadingOptions& options,
+                                                        const std::string& file) {
+    std::array<std::size_t, 3> columns{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto column = column_for(meanings[k], table, options, file);
+        if (!column) return std::nullopt;
+        columns[k] = *column;
+    }
+    return columns;
+}
+
+// LIGGGHTS writes half lengths into the columns for which LAMMPS has whole lengths, and names the parts of
+// its quaternions otherwise.
+bool is_of_liggghts(const RawTable& table) {
+    return std::any_of(table.columns.begin(), table.columns.end(), [](const RawColumn& column) {
+        return same_word(column.name, "quat1") || same_word(column.name, "blockiness1");
+    });
 }
 
 }  // namespace
 
-// The extents of a sphere are equal, and its blockiness is that of an ellipsoid, 2.
-std::vector<std::string> columns_of_other_shapes(const RawTable& table) {
-    constexpr double hair = 1e-3;
-    std::vector<std::string> names;
-    for (const auto& three : kExtents) {
-        std::array<const RawColumn*, 3> columns{};
-        for (std::size_t k = 0; k < 3; ++k) columns[k] = named(table, three[k]);
-        if (!columns[0] || !columns[1] || !columns[2]) continue;
-        for (std::size_t row = 0; row < table.rows && names.empty(); ++row) {
-            const auto [least, most] =
-                std::minmax({columns[0]->values[row], columns[1]->values[row], columns[2]->values[row]});
-            if (most - least > hair * most)
-                for (const RawColumn* column : columns) names.push_back(column->name);
+// The extents of a sphere are equal, and its powers are those of an ellipsoid, 2.
+ShapeColumns::ShapeColumns(const RawTable& table, const ReadingOptions& options, const std::string& file) {
+    extent_ = three_columns({"shapex", "shapey", "shapez"}, table, options, file);
+    share_ = extent_ && !is_of_liggghts(table) ? 0.5 : 1;
+    if (!extent_) extent_ = three_columns({"semix", "semiy", "semiz"}, table, options, file);
+    power_ = {column_for("blockiness1", table, options, file), column_for("blockiness2", table, options, file)};
+    const auto tells = [&](std::size_t column) { telling_.push_back(table.columns[column].name); };
+    if (extent_) {
+        const auto of = [&](std::size_t k, std::size_t row) { return table.columns[(*extent_)[k]].values[row]; };
+        for (std::size_t row = 0; row < table.rows && telling_.empty(); ++row) {
+            const auto [least, most] = std::minmax({of(0, row), of(1, row), of(2, row)});
+            if (most - least > kHair * most) std::for_each(extent_->begin(), extent_->end(), tells);
         }
     }
-    for (const char* name : kBlockiness) {
-        const RawColumn* column = named(table, name);
-        if (column && std::any_of(column->values.begin(), column->values.end(),
-                                  [&](double value) { return std::abs(value - 2) > hair; }))
-            names.push_back(column->name);
+    for (const auto& column : power_) {
+        if (!column) continue;
+        const std::vector<double>& values = table.columns[*column].values;
+        if (std::none_of(values.begin(), values.end(), [](double n) { return std::abs(n - 2) > kHair; }))
+            continue;
+        blockiness_ = true;
+        tells(*column);
     }
-    return names;
+    if (!extent_) blockiness_ = false;
+}
+
+std::vector<std::size_t> ShapeColumns::all() const {
+    std::vector<std::size_t> columns;
+    if (extent_) columns.assign(extent_->begin(), extent_->end());
+    for (const auto& column : power_)
+        if (column) columns.push_back(*column);
+    return columns;
+}
+
+GrainShape ShapeColumns::shape(const RawTable& table, std::size_t row, double unit) const {
+    const auto number = [&](std::size_t column) { return table.columns[column].values[row]; };
+    GrainShape shape;
+    for (std::size_t k = 0; k < 3; ++k)
+        shape.half[static_cast<Eigen::Index>(k)] = share_ * unit * number((*extent_)[k]);
+    if (power_[0]) shape.along = number(*power_[0]);
+    if (power_[1]) shape.around = number(*power_[1]);
+    return shape;
 }
 
 }  // namespace grainreel

@@ -99,6 +99,7 @@ State sorted_by_id(const State& frame) {
         sorted.velocity.push_back(frame.velocity[i]);
         sorted.spin.push_back(frame.spin[i]);
         if (!frame.orientation.empty()) sorted.orientation.push_back(frame.orientation[i]);
+        if (!frame.shape.empty()) sorted.shape.push_back(frame.shape[i]);
     }
     return sorted;
 }

@@ -33,6 +33,7 @@ struct StateSupply {
     bool spins = true;             // Frame::spin; else they are zero
     bool masses = false;           // Frame::mass
     bool orientations = false;     // Frame::orientation
+    bool shapes = false;           // Frame::shape
     bool contact_numbers = false;  // Frame::contact_number
     bool contacts = false;         // touches()
     bool measures = false;         // measured_near()

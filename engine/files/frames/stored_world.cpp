@@ -160,6 +160,7 @@ TrajectoryInfo trajectory_info(const StoredWorld& world, const StateSupply& supp
             info.meshes.push_back({body, shape});
     info.container_turns = world.container_turns;
     info.orientation = supply.orientations;
+    info.shapes = supply.shapes;
     info.contact_numbers = supply.contact_numbers;
     info.masses = supply.masses;
     info.velocities = supply.velocities;

@@ -63,6 +63,7 @@ struct TrajectoryInfo {
     std::vector<TrajectoryMesh> meshes;  // by rising number of their bodies
     bool container_turns = false;        // container and floor turn, and frames have their rotations
     bool orientation = false;
+    bool shapes = false;  // grains are ellipsoids or superquadrics, and have orientations
     bool contact_numbers = false;
     bool masses = false;                   // grains have masses of their own
     bool velocities = true, spins = true;  // false where the files that were read have none

@@ -54,7 +54,7 @@ inline constexpr std::array frame_variables{
     TrajectoryVariable{"cell_angles", NC_DOUBLE, "cell_angular", "degree", "angles of the periodic cell"}};
 
 // Variables with one value for each grain and frame, in the order in which they are written, read and added
-// to `grain_checksum`. orientation, contact_number, mass and present follow there.
+// to `grain_checksum`. orientation, contact_number, mass, half_lengths, blockiness and present follow there.
 inline constexpr std::array grain_variables{
     TrajectoryVariable{
         "id", NC_INT, nullptr, "1", "number of the grain",
@@ -153,6 +153,18 @@ inline constexpr TrajectoryVariable contact_number_variable{
 inline constexpr TrajectoryVariable mass_variable{
     "mass", NC_DOUBLE,           nullptr,
     "kg",   "mass of the grain", "as its file has it; 0 in a place without a grain"};
+
+// Only in files of other programs' runs whose grains are ellipsoids or superquadrics.
+inline constexpr TrajectoryVariable half_lengths_variable{
+    "half_lengths", NC_FLOAT, "spatial", "m", "half the lengths of the grain along its own axes",
+    "0 in a place without a grain"};
+inline constexpr TrajectoryVariable blockiness_variable{
+    "blockiness",
+    NC_FLOAT,
+    "power",
+    "1",
+    "powers of a superquadric, along its z and around it",
+    "2 and 2: an ellipsoid; (|x/a|^n2 + |y/b|^n2)^(n1/n2) + |z/c|^n1 = 1"};
 
 // An attribute of `velocities` and `spin`, only where the files that were read have no such numbers: then all
 // are 0. A single number that is not known is NaN.

@@ -71,6 +71,7 @@ struct TrajectoryReader::Impl {
         info.orientation = file.has_variable(orientation_variable.name);
         info.contact_numbers = file.has_variable(contact_number_variable.name);
         info.masses = file.has_variable(mass_variable.name);
+        info.shapes = file.has_variable(half_lengths_variable.name);
         info.velocities = is_known("velocities");
         info.spins = is_known("spin");
         info.traffic = file.has_variable(present_variable.name);
@@ -157,6 +158,8 @@ struct TrajectoryReader::Impl {
     void read_bodies(std::size_t index, State& frame, Checksum& sum) const;
     std::vector<std::size_t> places_of(std::size_t index, std::size_t n) const;
     void read_grains(std::size_t index, std::size_t n, State& frame) const;
+    // here: the places of the grains. sum: gets the numbers that are read.
+    void read_shapes(std::size_t index, const std::vector<std::size_t>& here, State& frame, Checksum& sum) const;
 
     std::string source;  // for messages
     NetcdfFile file;
@@ -246,6 +249,14 @@ Places TrajectoryReader::Impl::places_of(std::size_t index, std::size_t n) const
     return places;
 }
 
+void TrajectoryReader::Impl::read_shapes(std::size_t index, const Places& here, State& frame,
+                                         Checksum& sum) const {
+    const auto half = vectors(read<float>(half_lengths_variable, index, info.capacity, 3, sum), here);
+    const std::vector<float> powers = read<float>(blockiness_variable, index, info.capacity, 2, sum);
+    for (std::size_t k = 0; k < here.size(); ++k)
+        frame.shape.push_back({half[k], powers[2 * here[k]], powers[2 * here[k] + 1]});
+}
+
 void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, State& frame) const {
     Checksum sum = begin_sum(index);
     auto variable = grain_variables.begin();
@@ -269,6 +280,7 @@ void TrajectoryReader::Impl::read_grains(std::size_t index, std::size_t n, State
     if (info.contact_numbers)
         frame.contact_number = those_at(read<int>(contact_number_variable, index, places, 1, sum), here);
     if (info.masses) frame.mass = those_at(read<double>(mass_variable, index, places, 1, sum), here);
+    if (info.shapes) read_shapes(index, here, frame, sum);
     if (info.traffic) read<int>(present_variable, index, places, 1, sum);
     check_sum(grain_checksum, index, sum);
     for (std::int32_t& type : frame.species) type = type < 1 ? -1 : type - 1;

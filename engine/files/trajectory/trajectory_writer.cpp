@@ -87,6 +87,9 @@ void TrajectoryWriter::Impl::define() {
     if (info.orientation) define_variable(orientation_variable, "atom");
     if (info.contact_numbers) define_variable(contact_number_variable, "atom");
     if (info.masses) define_variable(mass_variable, "atom");
+    if (info.shapes)
+        for (const auto* variable : {&half_lengths_variable, &blockiness_variable})
+            define_variable(*variable, "atom");
     if (info.traffic) define_variable(present_variable, "atom");
     if (!info.velocities) file.attribute(variables["velocities"], unknown_attribute, unknown_about);
     if (!info.spins) file.attribute(variables["spin"], unknown_attribute, unknown_about);
@@ -117,6 +120,7 @@ void TrajectoryWriter::Impl::define_dimensions() {
     dimensions["checksum"] = file.dimension("checksum", 2);
     if (info.orientation || info.container_turns || !info.bodies.empty())
         dimensions["quaternion"] = file.dimension("quaternion", 4);
+    if (info.shapes) dimensions["power"] = file.dimension("power", 2);
     if (!info.bodies.empty()) dimensions["body"] = file.dimension("body", info.bodies.size());
 }
 
@@ -139,6 +143,7 @@ void TrajectoryWriter::Impl::find_variables() {
     if (info.orientation) find(orientation_variable.name);
     if (info.contact_numbers) find(contact_number_variable.name);
     if (info.masses) find(mass_variable.name);
+    if (info.shapes) find(half_lengths_variable.name), find(blockiness_variable.name);
     if (info.traffic) find(present_variable.name);
     find(frame_checksum);
     find(grain_checksum);
@@ -273,6 +278,12 @@ void TrajectoryWriter::Impl::write_grains(const State& f) {
     if (info.contact_numbers) put(Ints{0}, is_here, [&](std::size_t i, int) { return f.contact_number[i]; });
     variable = &mass_variable;
     if (info.masses) put(Doubles{0}, is_here, [&](std::size_t i, int) { return f.mass[i]; });
+    variable = &half_lengths_variable;
+    if (info.shapes) put(Floats{0, 0, 0}, is_here, [&](std::size_t i, int k) { return f.shape[i].half[k]; });
+    variable = &blockiness_variable;
+    if (info.shapes)
+        put(Floats{2, 2}, is_here,
+            [&](std::size_t i, int k) { return k == 0 ? f.shape[i].along : f.shape[i].around; });
     variable = &present_variable;
     if (info.traffic) put(Ints{0}, has_been, [&](std::size_t i, int) { return present[i]; });
     write_sum(grain_checksum, sum);
@@ -296,6 +307,7 @@ void TrajectoryWriter::Impl::keep(const State& frame) {
         if (info.orientation) kept.orientation[at] = frame.orientation[i];
         if (info.contact_numbers) kept.contact_number[at] = frame.contact_number[i];
         if (info.masses) kept.mass[at] = frame.mass[i];
+        if (info.shapes) kept.shape[at] = frame.shape[i];
         present[at] = 1;
     }
 }
@@ -311,6 +323,7 @@ void TrajectoryWriter::Impl::add_place(const State& frame, std::size_t i) {
     if (info.orientation) kept.orientation.emplace_back();
     if (info.contact_numbers) kept.contact_number.push_back(0);
     if (info.masses) kept.mass.push_back(0);
+    if (info.shapes) kept.shape.emplace_back();
     present.push_back(1);
 }
 
@@ -338,7 +351,7 @@ TrajectoryWriter::~TrajectoryWriter() = default;
 bool TrajectoryWriter::goes_on_with(const TrajectoryInfo& info, const std::filesystem::path& path) {
     const TrajectoryInfo there = TrajectoryReader(path).info();
     if (there.species != info.species || there.bodies != info.bodies || there.traffic != info.traffic ||
-        there.orientation != info.orientation || there.masses != info.masses ||
+        there.orientation != info.orientation || there.masses != info.masses || there.shapes != info.shapes ||
         there.container_turns != info.container_turns || !same_meshes(there.meshes, info.meshes) ||
         !there.checksums)
         throw UserError(
@@ -371,6 +384,7 @@ void TrajectoryWriter::write(const State& frame) {
     GRAINREEL_CHECK(!impl_->info.orientation || frame.orientation.size() == frame.size());
     GRAINREEL_CHECK(!impl_->info.contact_numbers || frame.contact_number.size() == frame.size());
     GRAINREEL_CHECK(!impl_->info.masses || frame.mass.size() == frame.size());
+    GRAINREEL_CHECK(!impl_->info.shapes || frame.shape.size() == frame.size());
     GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.bodies.size());
     if (frame.size() > impl_->info.capacity) {
         throw RunError(fmt::format("{}: has places for {} grains, and a frame has {}", impl_->name,

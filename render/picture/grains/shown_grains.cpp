@@ -73,6 +73,7 @@ const Shot& ShownGrains::of(const Shot& frame) {
     keep(shown_.velocity, kept_);
     keep(shown_.spin, kept_);
     keep(shown_.orientation, kept_);
+    keep(shown_.shape, kept_);
     keep(shown_.displacement, kept_);
     keep(shown_.own, kept_);
     return shown_;

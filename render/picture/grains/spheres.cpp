@@ -6,6 +6,7 @@
 
 #include "engine/state/glued_grains.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/picture/grains/shaped_grains.hpp"
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -107,6 +108,7 @@ void SpherePainter::take(const View& view, const Shot& frame) {
     mark_rotation(view, frame);
     mark_painted(frame);
     add_glued(view, frame);
+    give_shapes(view, frame, spheres_);
 }
 
 // Grains glued to walls come last, so that all others keep their places.

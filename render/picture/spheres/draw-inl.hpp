@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "render/picture/spheres/meet-inl.hpp"
+#include "render/picture/spheres/meet_shape-inl.hpp"
 #include "render/picture/spheres/sphere_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,27 +30,41 @@ HWY_INLINE void keep_nearer(F away, std::uint32_t number, float* depth, std::uin
     hn::StoreU(hn::IfThenElse(mask, hn::Set(Numbers(), number), old), Numbers(), seen);
 }
 
-template <bool orthographic, bool cut_open>
-void draw_as(const Sight& sight, const Cut& cut, const DepthRows& rows, const ViewSphere& s,
+// form: the radius of a sphere, or a shape.
+template <bool orthographic, bool cut_open, class Form>
+void draw_as(const Sight& sight, const Cut& cut, const DepthRows& rows, const ViewSphere& s, const Form& form,
              const PixelBox& box, std::uint32_t number) {
-    const F x(s.x), y(s.y), z(s.z), radius(s.radius);
+    const F x(s.x), y(s.y), z(s.z);
     for (int row = box.y0; row < box.y1; ++row) {
         const F slope_y(sight.slope_y(static_cast<float>(row) + 0.5f));
         const std::size_t first = static_cast<std::size_t>(row - rows.first_row) * rows.stride;
         for (int at = box.x0; at < box.x1; at += F::count) {
             const Ray<orthographic> ray(load_any(rows.slope_x + at), slope_y);
-            const F away = seen_of<cut_open>(ray, cut, meet<orthographic>(ray, x, y, z, radius));
+            const F away = seen_of<cut_open>(ray, cut, meet<orthographic>(ray, x, y, z, form));
             keep_nearer(away, number, rows.depth + first + at, rows.seen + first + at);
         }
     }
 }
 
+template <class Form>
+void draw_form(const Sight& sight, const Cut& cut, const DepthRows& rows, const ViewSphere& s,
+               const Form& form, const PixelBox& box, std::uint32_t number) {
+    if (sight.orthographic)
+        (cut.planes ? draw_as<true, true, Form> : draw_as<true, false, Form>)(sight, cut, rows, s, form, box,
+                                                                              number);
+    else
+        (cut.planes ? draw_as<false, true, Form> : draw_as<false, false, Form>)(sight, cut, rows, s, form,
+                                                                                box, number);
+}
+
 void draw(const Sight& sight, const Cut& cut, const DepthRows& rows, const ViewSphere& s, const PixelBox& box,
           std::uint32_t number) {
-    if (sight.orthographic)
-        (cut.planes ? draw_as<true, true> : draw_as<true, false>)(sight, cut, rows, s, box, number);
-    else
-        (cut.planes ? draw_as<false, true> : draw_as<false, false>)(sight, cut, rows, s, box, number);
+    draw_form(sight, cut, rows, s, F(s.radius), box, number);
+}
+
+void draw_shape(const Sight& sight, const Cut& cut, const DepthRows& rows, const ViewSphere& around,
+                const ViewShape& shape, const PixelBox& box, std::uint32_t number) {
+    draw_form(sight, cut, rows, around, in_all_lanes(shape), box, number);
 }
 
 float farthest(const DepthRows& rows, const PixelBox& box) {
@@ -102,13 +117,31 @@ void mark_edges(const std::uint32_t* row, const std::uint32_t* above, const std:
 
 // From here on: how grains share the pixels on edges.
 
+constexpr ViewShape kUnitBall{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
 HWY_INLINE F candidate_part(const ViewSphere* spheres, float ViewSphere::*part) {
     alignas(64) float values[kPointBlock];
     for (int i = 0; i < F::count; ++i) values[i] = spheres[i].*part;
     return load<F>(values);
 }
 
-template <bool orthographic, bool cut_open>
+// The shapes of F::count candidates; those that are missing are unit balls.
+HWY_INLINE ShapeLanes candidate_shapes(const ViewShape* const* shapes) {
+    alignas(64) float part[11][kPointBlock];
+    for (int i = 0; i < F::count; ++i) {
+        const ViewShape& shape = shapes[i] ? *shapes[i] : kUnitBall;
+        for (int k = 0; k < 9; ++k) part[k][i] = shape.to_unit[k / 3][k % 3];
+        part[9][i] = shape.along, part[10][i] = shape.around;
+    }
+    ShapeLanes lanes;
+    for (int k = 0; k < 3; ++k)
+        lanes.row[k] = {load<F>(part[3 * k]), load<F>(part[3 * k + 1]), load<F>(part[3 * k + 2])};
+    lanes.along = load<F>(part[9]);
+    lanes.around = load<F>(part[10]);
+    return lanes;
+}
+
+template <bool orthographic, bool cut_open, bool shaped>
 void settle_part(const Sight& sight, const Cut& cut, EdgeBlock& block, int first) {
     const F x = load<F>(block.x + first), y = load<F>(block.y + first), scale(1 / sight.focal);
     F nearest[kPoints], owner[kPoints];
@@ -118,10 +151,16 @@ void settle_part(const Sight& sight, const Cut& cut, EdgeBlock& block, int first
         const F cx = candidate_part(who, &ViewSphere::x), cy = candidate_part(who, &ViewSphere::y);
         const F cz = candidate_part(who, &ViewSphere::z), cr = candidate_part(who, &ViewSphere::radius);
         const auto there = cr > F(0);
+        const auto form = [&] {
+            if constexpr (shaped)
+                return candidate_shapes(block.shape[c] + first);
+            else
+                return cr;
+        }();
         for (int p = 0; p < kPoints; ++p) {
             const Ray<orthographic> ray((x + F(kPointX[p] / 16) - F(sight.centre_x)) * scale,
                                         (F(sight.centre_y) - y - F(kPointY[p] / 16)) * scale);
-            const F away = seen_of<cut_open>(ray, cut, meet<orthographic>(ray, cx, cy, cz, cr));
+            const F away = seen_of<cut_open>(ray, cut, meet<orthographic>(ray, cx, cy, cz, form));
             const auto nearer = there & (away < nearest[p]);
             nearest[p] = select(nearer, away, nearest[p]);
             owner[p] = select(nearer, F(static_cast<float>(c)), owner[p]);
@@ -143,13 +182,24 @@ void settle_part(const Sight& sight, const Cut& cut, EdgeBlock& block, int first
     }
 }
 
-void settle(const Sight& sight, const Cut& cut, EdgeBlock& block) {
+template <bool shaped>
+void settle_block(const Sight& sight, const Cut& cut, EdgeBlock& block) {
     for (int first = 0; first < kPointBlock; first += F::count) {
         if (sight.orthographic)
-            (cut.planes ? settle_part<true, true> : settle_part<true, false>)(sight, cut, block, first);
+            (cut.planes ? settle_part<true, true, shaped> : settle_part<true, false, shaped>)(sight, cut,
+                                                                                              block, first);
         else
-            (cut.planes ? settle_part<false, true> : settle_part<false, false>)(sight, cut, block, first);
+            (cut.planes ? settle_part<false, true, shaped> : settle_part<false, false, shaped>)(sight, cut,
+                                                                                                block, first);
     }
+}
+
+void settle(const Sight& sight, const Cut& cut, EdgeBlock& block) {
+    settle_block<false>(sight, cut, block);
+}
+
+void settle_shapes(const Sight& sight, const Cut& cut, EdgeBlock& block) {
+    settle_block<true>(sight, cut, block);
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

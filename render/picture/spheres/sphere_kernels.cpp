@@ -13,8 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 const SphereKernels* kernels_here() {
-    static constexpr SphereKernels kernels{draw,   farthest, mark_changes, mark_edges,
-                                           settle, light,    light_wall};
+    static constexpr SphereKernels kernels{draw,   draw_shape,    farthest, mark_changes, mark_edges,
+                                           settle, settle_shapes, light,    light_wall};
     return &kernels;
 }
 

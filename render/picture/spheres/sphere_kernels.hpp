@@ -1,4 +1,4 @@
-// The hot loops of drawing spheres, and their arguments: spheres, lines of sight and cuts. View coordinates
+// The hot loops of drawing spheres and other shapes of grains, and their arguments: spheres, lines of sight and cuts. View coordinates
 // (m) have x to the right, y up and z away from the eye; pixels count from the top left of the port. The
 // loops work on many pixels at once and are compiled for each instruction set; they are written in the files
 // *-inl.hpp of this folder.
@@ -14,6 +14,14 @@ namespace grainreel {
 
 struct ViewSphere {
     float x = 0, y = 0, z = 0, radius = 0;
+};
+
+// A grain that is no sphere: (|x|^around + |y|^around)^(along/around) + |z|^along = 1, where x, y and z count
+// along its own axes in its half lengths. With both powers 2 it is an ellipsoid, else a superquadric (Barr
+// 1981); powers are at least 2.
+struct ViewShape {
+    float to_unit[3][3];  // 1/m: takes a vector from the centre, in view coordinates, to its own x, y and z
+    float along = 2, around = 2;
 };
 
 // Finds the line of sight of a pixel. slope_x() and slope_y() are x and y of the line at z = 1 (perspective),
@@ -77,6 +85,7 @@ struct alignas(64) EdgeBlock {
     float mean_x[kCandidates][kPointBlock], mean_y[kCandidates][kPointBlock];
     float nearest[kPoints][kPointBlock];  // m, depth of the grain seen at a point
     int candidates = 0;  // the largest number that any of the pixels has; unused ones have radius < 0
+    const ViewShape* shape[kCandidates][kPointBlock];  // of the candidates, for settle_shapes
 };
 
 // A grain near another one. x, y and z count from the centre of the other.
@@ -96,6 +105,7 @@ struct LitGrain {
     ViewSphere sphere;
     float albedo[3];            // linear
     float pole[3] = {0, 0, 0};  // unit axis of a two-tone grain; 0 for plain ones
+    const ViewShape* shape = nullptr;  // null: the grain is a sphere
     NeighbourSpan occluders, casters;
 };
 
@@ -136,6 +146,8 @@ struct WallShade {
 struct SphereKernels {
     void (*draw)(const Sight&, const Cut&, const DepthRows&, const ViewSphere&, const PixelBox&,
                  std::uint32_t number);
+    void (*draw_shape)(const Sight&, const Cut&, const DepthRows&, const ViewSphere& around, const ViewShape&,
+                       const PixelBox&, std::uint32_t number);
     // The largest depth in a box.
     float (*farthest)(const DepthRows&, const PixelBox&);
     // These two write a bit for each of `count` pixels of a row, 64 to a word and the first in the lowest
@@ -147,6 +159,7 @@ struct SphereKernels {
                        int count, std::uint64_t* bits);
     // Computes the results of the block.
     void (*settle)(const Sight&, const Cut&, EdgeBlock&);
+    void (*settle_shapes)(const Sight&, const Cut&, EdgeBlock&);
     void (*light)(const Sight&, const Cut&, const Lamp&, const LitGrain&, const LitPoints&);
     void (*light_wall)(const Sight&, const Lamp&, const WallShade&, WallRow&);
 };

@@ -120,7 +120,8 @@ float* Visibility::depth_of_band(int band, Worker& worker, const SolidDepth& sol
 }
 
 void Visibility::draw_band(int band, Worker& worker, const Sight& sight, const Cut& cut,
-                           const std::vector<ViewSphere>& spheres, const SolidDepth& solid) {
+                           const DrawnGrains& grains, const SolidDepth& solid) {
+    const std::vector<ViewSphere>& spheres = grains.around;
     const int y0 = band * kBand, y1 = std::min(height_, y0 + kBand);
     const std::size_t first = static_cast<std::size_t>(y0) * stride_ + kPad;
     std::fill_n(seen_.begin() + static_cast<std::ptrdiff_t>(first - kPad), (y1 - y0) * stride_, 0u);
@@ -135,7 +136,10 @@ void Visibility::draw_band(int band, Worker& worker, const Sight& sight, const C
         box.y0 = std::max(box.y0, y0);
         box.y1 = std::min(box.y1, y1);
         if (hidden(worker, band, box, spheres[i].z - spheres[i].radius, rows)) continue;
-        sphere_kernels().draw(sight, cut, rows, spheres[i], box, i + 1);
+        if (grains.shapes)
+            sphere_kernels().draw_shape(sight, cut, rows, spheres[i], grains.shapes[i], box, i + 1);
+        else
+            sphere_kernels().draw(sight, cut, rows, spheres[i], box, i + 1);
         for (int tile = box.x0 / kTile; tile * kTile < box.x1; ++tile) ++worker.drawn[tile];
     }
     note_shown(band, worker);
@@ -167,8 +171,9 @@ void Visibility::collect_shown(std::size_t count) {
         if (marked[i]) shown_.push_back(static_cast<std::uint32_t>(i));
 }
 
-void Visibility::update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres,
-                        Team& team, const SolidDepth& solid) {
+void Visibility::update(const Sight& sight, const Cut& cut, const DrawnGrains& grains, Team& team,
+                        const SolidDepth& solid) {
+    const std::vector<ViewSphere>& spheres = grains.around;
     if (solid.away) depth_.resize(seen_.size(), kNothing);
     for (std::size_t x = 0; x < stride_; ++x)
         slope_x_[x] = sight.slope_x(static_cast<float>(static_cast<int>(x) - kPad) + 0.5f);
@@ -182,7 +187,7 @@ void Visibility::update(const Sight& sight, const Cut& cut, const std::vector<Vi
         worker.seen_in.assign(spheres.size(), 0);
         worker.shown.clear();
         for (int band; (band = next.fetch_add(1, std::memory_order_relaxed)) < bands();)
-            draw_band(band, worker, sight, cut, spheres, solid);
+            draw_band(band, worker, sight, cut, grains, solid);
     });
     collect_shown(spheres.size());
 }
@@ -227,6 +232,15 @@ void clear_candidates(EdgeBlock& block, int begin) {
         block.x[i] = block.y[i] = 0;
         for (auto& candidate : block.candidate) candidate[i] = kNobody;
     }
+}
+
+void settle_candidates(const Sight& sight, const Cut& cut, const ViewShape* shapes,
+                       const std::uint32_t (&who)[kCandidates][kPointBlock], EdgeBlock& block) {
+    if (!shapes) return sphere_kernels().settle(sight, cut, block);
+    for (int c = 0; c < block.candidates; ++c)
+        for (int i = 0; i < kPointBlock; ++i)
+            block.shape[c][i] = block.candidate[c][i].radius > 0 ? shapes + who[c][i] : nullptr;
+    sphere_kernels().settle_shapes(sight, cut, block);
 }
 
 }  // namespace grainreel

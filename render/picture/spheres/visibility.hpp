@@ -49,6 +49,16 @@ struct SolidDepth {
     std::size_t stride = 0;
 };
 
+// The grains of a picture: a sphere around each, and what is in it.
+struct DrawnGrains {
+    DrawnGrains(const std::vector<ViewSphere>& spheres) : around(spheres) {}
+    DrawnGrains(const std::vector<ViewSphere>& spheres, const std::vector<ViewShape>& inside)
+        : around(spheres), shapes(inside.empty() ? nullptr : inside.data()) {}
+
+    const std::vector<ViewSphere>& around;
+    const ViewShape* shapes = nullptr;  // one for each grain; null: all are the spheres themselves
+};
+
 class Visibility {
   public:
     // width, height: pixels, >= 1.
@@ -56,7 +66,7 @@ class Visibility {
 
     // The number of a grain is its index + 1. The result does not depend on the team's size. Where `solid` is
     // given, grains are seen only where they are nearer than it, and depths are kept.
-    void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team,
+    void update(const Sight& sight, const Cut& cut, const DrawnGrains& grains, Team& team,
                 const SolidDepth& solid = {});
 
     // Number of the grain seen in each pixel of a row, or 0. Rows count from the top. One pixel before the
@@ -93,8 +103,8 @@ class Visibility {
     void place(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres, Team& team);
     void sort_nearest_first(const std::vector<ViewSphere>& spheres);
     void fill_bands();
-    void draw_band(int band, Worker& worker, const Sight& sight, const Cut& cut,
-                   const std::vector<ViewSphere>& spheres, const SolidDepth& solid);
+    void draw_band(int band, Worker& worker, const Sight& sight, const Cut& cut, const DrawnGrains& grains,
+                   const SolidDepth& solid);
     float* depth_of_band(int band, Worker& worker, const SolidDepth& solid);
     bool hidden(Worker& worker, int band, const PixelBox& box, float nearest, const struct DepthRows& rows);
     void note_shown(int band, Worker& worker);
@@ -120,5 +130,9 @@ void take_candidates(const Visibility& visibility, const std::vector<ViewSphere>
 
 // Leaves the places from `begin` on without candidates.
 void clear_candidates(EdgeBlock& block, int begin);
+
+// Computes the results of a block whose candidates are `who`.
+void settle_candidates(const Sight& sight, const Cut& cut, const ViewShape* shapes,
+                       const std::uint32_t (&who)[kCandidates][kPointBlock], EdgeBlock& block);
 
 }  // namespace grainreel

@@ -156,10 +156,10 @@ void WallOrder::judge_block(const Sight& sight, const EdgeBlock& block, WallPixe
     }
 }
 
-void WallOrder::update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres,
+void WallOrder::update(const Sight& sight, const Cut& cut, const DrawnGrains& grains,
                        const std::vector<WallFace>& faces, const Visibility& visibility, Team& team) {
     prepare(sight, faces);
-    find_pixels(sight, spheres, visibility, team);
+    find_pixels(sight, grains.around, visibility, team);
     team.run([&](int member) {
         EdgeBlock block;
         std::uint32_t who[kCandidates][kPointBlock];
@@ -168,10 +168,10 @@ void WallOrder::update(const Sight& sight, const Cut& cut, const std::vector<Vie
             const int count = static_cast<int>(std::min<std::size_t>(kPointBlock, pixels_.size() - first));
             block.candidates = 0;
             for (int i = 0; i < count; ++i)
-                take_candidates(visibility, spheres, pixels_[first + i].x, pixels_[first + i].y, block, who,
-                                i);
+                take_candidates(visibility, grains.around, pixels_[first + i].x, pixels_[first + i].y, block,
+                                who, i);
             clear_candidates(block, count);
-            sphere_kernels().settle(sight, cut, block);
+            settle_candidates(sight, cut, grains.shapes, who, block);
             judge_block(sight, block, &pixels_[first], count);
         }
     });

@@ -37,7 +37,7 @@ struct WallPixel {
 class WallOrder {
   public:
     // faces: in view coordinates. The result does not depend on the team's size.
-    void update(const Sight& sight, const Cut& cut, const std::vector<ViewSphere>& spheres,
+    void update(const Sight& sight, const Cut& cut, const DrawnGrains& grains,
                 const std::vector<WallFace>& faces, const Visibility& visibility, Team& team);
     // Pixels in order from the top left on.
     const std::vector<WallPixel>& pixels() const { return pixels_; }

@@ -49,6 +49,7 @@ class Trajectory final : public StateArchive {
         supply.spins = reader_.info().spins;
         supply.masses = reader_.info().masses;
         supply.orientations = reader_.info().orientation;
+        supply.shapes = reader_.info().shapes;
         supply.contact_numbers = reader_.info().contact_numbers;
         return supply;
     }

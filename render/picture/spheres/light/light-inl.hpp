@@ -17,12 +17,22 @@ struct SurfacePoint {
     F cap;  // 1 on a cut face, else 0
 };
 
-template <bool orthographic>
-HWY_INLINE SurfacePoint surface_point(const Sight& sight, const Cut& cut, const ViewSphere& s, F pixel_x,
-                                      F pixel_y) {
+// Which way a point of the surface faces; `point` counts from the centre.
+HWY_INLINE Triple<F> facing(const Triple<F>& point, F radius) {
+    return point * (F(1) / radius);
+}
+HWY_INLINE Triple<F> facing(const Triple<F>& point, const ShapeLanes& shape) {
+    const Triple<F> own = shape.unit(point);
+    return shape.normal(shape.all_ellipsoids() ? own : reach_of(own, shape).gradient);
+}
+
+// form: the radius of a sphere, or a shape.
+template <bool orthographic, class Form>
+HWY_INLINE SurfacePoint surface_point(const Sight& sight, const Cut& cut, const ViewSphere& s,
+                                      const Form& form, F pixel_x, F pixel_y) {
     const F scale(1 / sight.focal);
     const Ray<orthographic> ray((pixel_x - F(sight.centre_x)) * scale, (F(sight.centre_y) - pixel_y) * scale);
-    const Meeting m = meet<orthographic>(ray, F(s.x), F(s.y), F(s.z), F(s.radius));
+    const Meeting m = meet<orthographic>(ray, F(s.x), F(s.y), F(s.z), form);
     const Triple<F> direction{orthographic ? F(0) : ray.x, orthographic ? F(0) : ray.y, F(1)};
     F away = seen_at<orthographic>(m);
     SurfacePoint point;
@@ -41,7 +51,7 @@ HWY_INLINE SurfacePoint surface_point(const Sight& sight, const Cut& cut, const 
     // A point whose line of sight just misses the grain lies on the silhouette.
     const F back = select(away == F(kNowhere), F(0), away - m.along);
     point.at = m.miss.plus(direction, back);
-    point.normal = select(point.cap > F(0), face, point.at * F(1 / s.radius));
+    point.normal = select(point.cap > F(0), face, facing(point.at, form));
     point.to_eye = -(direction * inverse_root(ray.square));
     return point;
 }
@@ -91,8 +101,8 @@ HWY_INLINE F unshadowed(const SurfacePoint& point, const Lamp& lamp, const Neigh
 
 // The balls of the legend have the same formula (lit() in render/picture/words/legend_block.cpp): change
 // both.
-template <bool orthographic>
-void light_as(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGrain& grain,
+template <bool orthographic, class Form>
+void light_as(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGrain& grain, const Form& form,
               const LitPoints& points) {
     const Triple<F> key{F(lamp.to_key[0]), F(lamp.to_key[1]), F(lamp.to_key[2])};
     const Triple<F> up{F(lamp.up[0]), F(lamp.up[1]), F(lamp.up[2])};
@@ -100,7 +110,7 @@ void light_as(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGra
     const bool two_tone = grain.pole[0] != 0 || grain.pole[1] != 0 || grain.pole[2] != 0;
     for (int first = 0; first < points.count; first += F::count) {
         const SurfacePoint p = surface_point<orthographic>(
-            sight, cut, grain.sphere, load_any(points.x + first), load_any(points.y + first));
+            sight, cut, grain.sphere, form, load_any(points.x + first), load_any(points.y + first));
         const F open = openness(p, grain.occluders);
         F falls = larger(p.normal.dot(key), F(0));
         F shine(0);
@@ -129,9 +139,18 @@ void light_as(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGra
     }
 }
 
+template <class Form>
+void light_form(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGrain& grain, const Form& form,
+                const LitPoints& points) {
+    (sight.orthographic ? light_as<true, Form> : light_as<false, Form>)(sight, cut, lamp, grain, form, points);
+}
+
 void light(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGrain& grain,
            const LitPoints& points) {
-    (sight.orthographic ? light_as<true> : light_as<false>)(sight, cut, lamp, grain, points);
+    if (grain.shape)
+        light_form(sight, cut, lamp, grain, in_all_lanes(*grain.shape), points);
+    else
+        light_form(sight, cut, lamp, grain, F(grain.sphere.radius), points);
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -76,7 +76,7 @@ void BandPainter::paint_row(const PaintJob& job, int y, Layer& layer) {
 }
 
 void BandPainter::take_edge(const PaintJob& job, int x, int y) {
-    take_candidates(job.visibility, job.spheres.spheres, x, y, block_, block_who_, block_size_);
+    take_candidates(job.visibility, job.spheres.drawn().around, x, y, block_, block_who_, block_size_);
     block_x_[block_size_] = x;
     block_y_[block_size_] = y;
     if (++block_size_ == kPointBlock) settle_edges(job);
@@ -85,7 +85,7 @@ void BandPainter::take_edge(const PaintJob& job, int x, int y) {
 void BandPainter::settle_edges(const PaintJob& job) {
     if (block_size_ == 0) return;
     clear_candidates(block_, block_size_);
-    sphere_kernels().settle(job.sight, job.cut, block_);
+    settle_candidates(job.sight, job.cut, job.spheres.drawn().shapes, block_who_, block_);
     for (int i = 0; i < block_size_; ++i) {
         bool any = false;
         for (int c = 0; c < block_.candidates; ++c) {
@@ -179,7 +179,8 @@ void BandPainter::add_parts(std::size_t begin, std::size_t end) {
 void BandPainter::light(const PaintJob& job, std::uint32_t grain, const LitPoints& points) {
     const std::size_t slot = job.slot_of[grain];
     LitGrain lit;
-    lit.sphere = job.spheres.spheres[grain];
+    lit.sphere = job.spheres.drawn().around[grain];
+    if (!job.spheres.shapes.empty()) lit.shape = &job.spheres.shapes[grain];
     for (std::size_t c = 0; c < 3; ++c) {
         lit.albedo[c] = job.spheres.albedo[grain][c];
         if (!job.spheres.poles.empty()) lit.pole[c] = job.spheres.poles[grain][c];
@@ -243,12 +244,12 @@ void BandPainter::encode(Layer& layer) const {
 
 void SphereLayer::find_visible(const Sight& sight, const Cut& cut, const Spheres& spheres, Team& team,
                                const SolidDepth& solid) {
-    visibility_.update(sight, cut, spheres.spheres, team, solid);
+    visibility_.update(sight, cut, spheres.drawn(), team, solid);
 }
 
 void SphereLayer::find_order(const Sight& sight, const Cut& cut, const Spheres& spheres,
                              const std::vector<WallFace>& faces, Team& team) {
-    wall_order_.update(sight, cut, spheres.spheres, faces, visibility_, team);
+    wall_order_.update(sight, cut, spheres.drawn(), faces, visibility_, team);
 }
 
 void SphereLayer::find_neighbours(const Cut& cut, const Lamp& lamp, const Spheres& spheres, Team& team) {

@@ -17,12 +17,18 @@
 
 namespace grainreel {
 
-// What is drawn, with one entry for each grain. `poles` and `painted` may be empty.
+// What is drawn, with one entry for each grain. `poles` and `painted` may be empty, and so are `shapes` and
+// `around` if all grains are spheres. Where they are not, `spheres` are what takes light from others: a ball
+// inside each grain, and after them more balls inside of grains that are long or flat.
 struct Spheres {
     std::vector<ViewSphere> spheres;
+    std::vector<ViewShape> shapes;
+    std::vector<ViewSphere> around;            // spheres around the shapes
     std::vector<std::array<float, 3>> albedo;  // linear
     std::vector<std::array<float, 3>> poles;   // unit: axes of two-tone grains, in view coordinates
     std::vector<std::uint8_t> painted;  // 0: the grain hides others and takes their light, but has no colour
+
+    DrawnGrains drawn() const { return {shapes.empty() ? spheres : around, shapes}; }
 };
 
 struct PaintJob {
