@@ -79,10 +79,8 @@ TEST(TransparentFilm, WordsReadOnAnyPaper) {
 TEST(TransparentFilm, PlotsHaveNoBox) {
     const FilmedScene scene = scene_of(true);
     const PictureLayout layout = plan_layout(scene);
-    const TypeScale type = type_scale(scene.film);
     const Palette palette = make_palette(scene.film.background);
-    const NumbersPlan plan = plan_numbers({nullptr, type, palette}, scene, layout.second.width,
-                                          layout.second.height, layout.stacked);
+    const NumbersPlan plan = plan_numbers({nullptr, layout.type, palette}, scene, layout);
     ASSERT_EQ(plan.plots.size(), 1u);
     Rectangle part = plan.plots[0];
     part.x += layout.second.x, part.y += layout.second.y;
