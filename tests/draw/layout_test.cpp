@@ -216,7 +216,7 @@ TEST(Layout, PlotsTakeFreeHeight) {
         const Palette palette = make_palette(scene.film.background);
         const NumbersPlan plan = plan_numbers({nullptr, layout.type, palette}, scene, layout);
         ASSERT_EQ(plan.plots.size(), 1u);
-        EXPECT_NEAR(plan.plots[0].y + plan.plots[0].height, layout.second.height - layout.type.margin, 3);
+        EXPECT_NEAR(plan.plots[0].y + plan.plots[0].height, layout.second.height - layout.type.margin, 2);
     }
 }
 

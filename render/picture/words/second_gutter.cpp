@@ -22,7 +22,8 @@ constexpr double note_width = 0.22;       // in a row, as a share of the gutter'
 constexpr double caption_letters = 11;    // in a row, the caption's width in heights of minor letters
 
 Rectangle whole(double x, double y, double width, double height) {
-    return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)};
+    const auto first = [](double pixels) { return static_cast<int>(pixels); };
+    return {first(x), first(y), first(x + width) - first(x), first(y + height) - first(y)};
 }
 
 // Whether arrows and dial are wanted; they are left out where there is no room.
