@@ -57,10 +57,8 @@ TEST(Plots, TheMarkerIsWhereTheLastRowIs) {
     for (const auto& [width, height] : {std::pair{1280, 720}, {720, 1280}}) {
         const FilmedScene scene = with_plot(width, height);
         const PictureLayout layout = plan_layout(scene);
-        const TypeScale type = type_scale(scene.film);
         const Palette palette = make_palette(scene.film.background);
-        const NumbersPlan plan = plan_numbers({nullptr, type, palette}, scene, layout.second.width,
-                                              layout.second.height, layout.stacked);
+        const NumbersPlan plan = plan_numbers({nullptr, layout.type, palette}, scene, layout);
         ASSERT_EQ(plan.plots.size(), 1u);
         Rectangle part = plan.plots[0];
         part.x += layout.second.x;

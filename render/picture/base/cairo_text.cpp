@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <mutex>
+#include <tuple>
 #include <vector>
 
 #include "engine/base/own_files.hpp"
@@ -169,8 +171,16 @@ double longest_word(const std::string& text, const TextStyle& style) {
     return longest;
 }
 
+// A layout of words is chosen among many, which measure the same texts.
 TextSize measure_text(const std::string& text, const TextStyle& style, double wrap, int lines) {
-    return size_of(make_wrapped(text, style, wrap, lines).get());
+    constexpr std::size_t kMost = 4096;
+    using Measured = std::tuple<std::string, double, bool, bool, double, int>;
+    thread_local std::map<Measured, TextSize> measured;
+    Measured key{text, style.size, style.bold, style.centred, wrap, lines};
+    if (const auto known = measured.find(key); known != measured.end()) return known->second;
+    if (measured.size() >= kMost) measured.clear();
+    return measured.emplace(std::move(key), size_of(make_wrapped(text, style, wrap, lines).get()))
+        .first->second;
 }
 
 bool keeps_text(cairo_t* on) {

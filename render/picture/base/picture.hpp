@@ -52,10 +52,10 @@ double least_letters(const Film& film);
 
 // Which parts of the picture are gutters for words, and which part shows the container.
 struct PictureLayout {
-    bool stacked = false;  // gutters above and below instead of left and right
+    bool stacked = false;  // the second gutter is rows below the container instead of a column
     TypeScale type{};      // sizes of the words
-    Rectangle first;       // left or top: title, legend, scale
-    Rectangle second;      // right or bottom: time, drive, playback
+    Rectangle first;       // title, legend, scale; in rows if it is as wide as the picture, else in a column
+    Rectangle second;      // time, drive, playback, plots
     Rectangle port;        // the container
     Rectangle caption;     // the band below all of them, for film.caption; empty without captions
     bool plates = false;   // the port is the whole picture, and words lie over it

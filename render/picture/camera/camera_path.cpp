@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/scene/bed.hpp"
+#include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -38,15 +39,21 @@ CameraPath::CameraPath(const FilmedScene& scene, const PictureLayout& layout)
       picture_height_(scene.film.height),
       margin_(type_scale(scene.film).margin),
       meshes_(mesh_reach(scene)),
+      stroke_(drawn_stroke(scene)),
       target_(camera_.target.value_or(camera_.position ? extent_of(scene).middle() : framed_middle(scene))) {
     make_tracks();
     if (camera_.position)
         look_from_position();
     else
         frame_by_itself(scene);
-    const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene), meshes_);
+    const std::vector<Vec3> all = points_of(scene, whole_container(scene));
     for (const Vec3& point : all) radius_ = std::max(radius_, (point - target_).norm());
     if (still_) still_->nearest = std::min(still_->nearest, 0.5 * least_depth(all));
+}
+
+// The points that have to be seen of a part, at the camera's own azimuth.
+std::vector<Vec3> CameraPath::points_of(const FilmedScene& scene, const FramedPart& part) const {
+    return framing_points(scene, camera_.azimuth, part, meshes_, stroke_);
 }
 
 // Frames the part that framed_part() gives. If the container is cut off there, its walls may come too close
@@ -54,7 +61,7 @@ CameraPath::CameraPath(const FilmedScene& scene, const PictureLayout& layout)
 void CameraPath::frame_by_itself(const FilmedScene& scene) {
     FramedPart part = framed_part(scene);
     double scale = frame_part(scene, part);
-    const std::vector<Vec3> all = framing_points(scene, camera_.azimuth, whole_container(scene), meshes_);
+    const std::vector<Vec3> all = points_of(scene, whole_container(scene));
     while (part.cut && camera_.field_of_view > 0 && least_depth(all) < close_by * distance_) {
         part.top *= 1.25;
         if (part.top >= scene.container.height) part = whole_container(scene);
@@ -74,8 +81,7 @@ double CameraPath::frame_part(const FilmedScene& scene, const FramedPart& part) 
         keep_distance(scene, part);
         return camera_.field_of_view <= 0 ? focal_ : focal_ / distance_;
     }
-    still_ = fit_view(camera_, framing_points(scene, camera_.azimuth, part, meshes_), port_, margin_,
-                      picture_height_);
+    still_ = fit_view(camera_, points_of(scene, part), port_, margin_, picture_height_);
     distance_ = still_->to_view(target_).z();
     return still_->pixels_per_metre(target_);
 }
@@ -97,7 +103,7 @@ FramedPart CameraPath::show_more(const FilmedScene& scene, FramedPart part, doub
 void CameraPath::lower(const FilmedScene& scene, const FramedPart& part) {
     constexpr int kTimes = 4;       // points at other depths move by other ways
     constexpr double kLeast = 0.5;  // pixels
-    const std::vector<Vec3> points = framing_points(scene, camera_.azimuth, part, meshes_);
+    const std::vector<Vec3> points = points_of(scene, part);
     for (int i = 0; i < kTimes; ++i) {
         const auto lowest = std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
             return still_->project(a).y() < still_->project(b).y();
@@ -114,7 +120,7 @@ bool CameraPath::leaves_aside(const FilmedScene& scene, const FramedPart& part) 
     constexpr int heights = 64;
     for (int i = 0; i <= heights; ++i) {
         const double top = part.top + (scene.container.height - part.top) * i / heights;
-        for (const Vec3& point : framing_points(scene, camera_.azimuth, {top, true}, meshes_)) {
+        for (const Vec3& point : points_of(scene, {top, true})) {
             const Eigen::Vector2d seen = still_->project(point);
             if (seen.y() >= 0 && (seen.x() < 0 || seen.x() > port_.width)) return true;
         }
@@ -233,7 +239,7 @@ void CameraPath::keep_distance(const FilmedScene& scene, const FramedPart& part)
     const Vec3 middle = framed_middle(scene);
     for (const Pose& here : samples()) {
         const View view = looking(here.azimuth, here.elevation, camera_.up);
-        for (const Vec3& point : framing_points(scene, here.azimuth, part, meshes_))
+        for (const Vec3& point : framing_points(scene, here.azimuth, part, meshes_, stroke_))
             framing.take(view, point - middle);
     }
     focal_ = framing.focal();

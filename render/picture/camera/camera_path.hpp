@@ -58,6 +58,7 @@ class CameraPath {
     double frame_part(const FilmedScene& scene, const FramedPart& part);
     FramedPart show_more(const FilmedScene& scene, FramedPart part, double scale);
     void lower(const FilmedScene& scene, const FramedPart& part);
+    std::vector<Vec3> points_of(const FilmedScene& scene, const FramedPart& part) const;
     bool leaves_aside(const FilmedScene& scene, const FramedPart& part) const;
     void keep_sides(const FilmedScene& scene, FramedPart part);
     void keep_distance(const FilmedScene& scene, const FramedPart& part);
@@ -70,6 +71,7 @@ class CameraPath {
     const int picture_height_;
     const double margin_;             // pixels, between what is framed and the port's border
     const std::vector<Vec3> meshes_;  // m, outermost points of the meshes
+    const Vec3 stroke_;               // m, of the container as it is drawn
     Vec3 target_;
     // The view of a camera that stands still, framed automatically and without a target of its own.
     std::optional<View> still_;

@@ -165,7 +165,7 @@ Vec3 framed_middle(const FilmedScene& scene) {
 }
 
 std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part,
-                                 const std::vector<Vec3>& meshes) {
+                                 const std::vector<Vec3>& meshes, const Vec3& stroke) {
     std::vector<Vec3> corners = corners_of(scene, part, meshes);
     if (scene.container.tray)
         for (const Vec3& corner : tray_corners(scene)) corners.push_back(corner);
@@ -176,19 +176,24 @@ std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const
         add_sources(scene, corners);
     }
     if (!part.cut && part.top > scene.container.height) corners.emplace_back(0, 0, part.top);
+    const std::vector<LabMark> marks = lab_marks(scene, azimuth);
     std::vector<Vec3> points;
-    const Vec3 stroke = drawn_stroke(scene);
     for (const double end : {-1.0, 1.0}) {
         for (const Vec3& corner : corners) {
             // Where the container is cut off by the picture, its stroke upwards is not seen.
             const bool at_top = part.cut && corner.z() >= part.top;
             points.push_back(corner + end * Vec3(stroke.x(), stroke.y(), at_top ? 0 : stroke.z()));
         }
-        for (const LabMark& mark : lab_marks(scene, azimuth))
+        for (const LabMark& mark : marks)
             for (const Vec3& point : {mark.foot, Vec3(mark.foot + mark.along)})
                 points.push_back(point + end * stroke);
     }
     return points;
+}
+
+std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part,
+                                 const std::vector<Vec3>& meshes) {
+    return framing_points(scene, azimuth, part, meshes, drawn_stroke(scene));
 }
 
 std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth) {

@@ -23,7 +23,10 @@ Vec3 framed_middle(const FilmedScene& scene);
 
 // Every point that has to stay in the picture of a camera at this azimuth (degrees): corners of the drawn
 // container as far as it is framed, at rest and at both ends of its stroke as drawn, and the marks beside it.
-// meshes: the points of mesh_reach(), which take a while to find.
+// meshes: the points of mesh_reach(), which take a while to find. stroke: drawn_stroke(), which takes a while
+// too where the drive changes.
+std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part,
+                                 const std::vector<Vec3>& meshes, const Vec3& stroke);
 std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth, const FramedPart& part,
                                  const std::vector<Vec3>& meshes);
 std::vector<Vec3> framing_points(const FilmedScene& scene, double azimuth);

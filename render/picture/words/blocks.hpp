@@ -101,8 +101,7 @@ std::string clock_words(const FilmedScene& scene, const State& frame);
 // The time and, with a drive, the cycle; with a tray also how many grains lie in it.
 TextSize clock_block(const Writer& writer, const FilmedScene& scene, const State& frame, double x, double y);
 
-// The words in the first gutter, which stands at the left or above the container. They say what is seen and
-// how large it is.
+// The words in the first gutter. They say what is seen and how large it is.
 struct FirstPart {
     struct Block {
         std::string name;
@@ -124,8 +123,8 @@ struct WordPoint {
     double x = 0, y = 0;
 };
 
-// Where time, dial, drive, caption, notes and plots lie in the second gutter, which stands at the right or
-// below and has the words that change with time. Pixels from its corner.
+// Where time, dial, drive, caption, notes and plots lie in the second gutter, which has the words that change
+// with time. Pixels from its corner.
 struct NumbersPlan {
     double radius = 0;  // radius of the dial
     WordPoint clock, caption, note, dial, drive, arrows;
@@ -143,10 +142,11 @@ struct NumbersPlan {
     bool empty = false;                       // whether there is nothing to write or draw
 };
 
-// width, height: of the gutter. Plots fill the height that is left; with height 0 all take as little as they
-// need. stacked: the gutter lies below the container. Where there is not enough room, first plots are left
-// out, then arrows, then the dial.
+// Where there is not enough room, first plots are left out, then arrows, then the dial.
+NumbersPlan plan_numbers(const Writer& measure, const FilmedScene& scene, const PictureLayout& layout);
+// The plan for a gutter of another size. Plots fill the height that is left; with height 0 all take as little
+// as they need. stacked: the gutter lies below the container.
 NumbersPlan plan_numbers(const Writer& measure, const FilmedScene& scene, double width, double height,
-                         bool stacked);
+                         bool stacked, bool at_left = false);
 
 }  // namespace grainreel

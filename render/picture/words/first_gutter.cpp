@@ -176,13 +176,16 @@ FirstPart row_part(const Writer& writer, const Blocks& blocks, double inner, dou
 }
 
 // The layout at the left: words about what is seen stand at the upper end, and directions and lengths stand
-// at the lower end.
-FirstPart column_part(const Writer& writer, const Blocks& blocks, double inner, double room) {
+// at the lower end. has_arrows: whether the directions of gravity and drive belong here.
+FirstPart column_part(const Writer& writer, const Blocks& blocks, double inner, double room,
+                      bool has_arrows) {
     const TypeScale& type = writer.type;
     const Writer measure{nullptr, type, writer.palette};
     const double x = type.margin;
     const auto length = blocks.scale_bar(0.8 * inner);
-    const auto arrows = blocks.arrows();
+    const auto arrows = [&](const Writer& on, double left, double top) {
+        return has_arrows ? blocks.arrows()(on, left, top) : TextSize();
+    };
     const auto axes = blocks.axes();
     const auto height = [&](const auto& block) { return block(measure, 0, 0).height; };
     const auto with_gap = [&](double high) { return high > 0 ? high + type.gap : 0; };
@@ -217,11 +220,12 @@ FirstPart column_part(const Writer& writer, const Blocks& blocks, double inner, 
 FirstPart first_part(const Writer& writer, const FilmedScene& scene, const View* view,
                      const PictureLayout& layout, double width) {
     const TypeScale& type = writer.type;
-    const double inner = std::max(1.0, width - (layout.stacked ? 2.0 : 1.5) * type.margin);
+    const bool in_rows = width >= scene.film.width;
+    const double inner = std::max(1.0, width - (in_rows ? 2.0 : 1.5) * type.margin);
     const double room = layout.first.height > 0 ? layout.first.height - type.margin : endless_room;
     // The scale holds at the depth of the middle of the framed part.
     const Blocks blocks(scene, view, view ? view->pixels_per_metre(framed_middle(scene)) : 1);
-    if (!layout.stacked) return column_part(writer, blocks, inner, room);
+    if (!in_rows) return column_part(writer, blocks, inner, room, !layout.stacked);
     const Writer measure{nullptr, type, writer.palette};
     const bool wide = scene.film.width > 1.2 * scene.film.height;
     if (!wide || !row_part(measure, blocks, inner, room).left_out.empty())

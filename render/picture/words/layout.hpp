@@ -12,8 +12,9 @@ namespace grainreel {
 State widest_frame();
 
 // The layout that film.words asks for. Gutters are as wide as their words need, and at most about a third of
-// the picture each. They lie left and right, or above and below, whichever leaves the container larger. Words
-// shrink to four fifths of their size before any of them is left out.
+// the picture each. They lie beside the container, above it or below it, or one at a side and the other above
+// or below. It is the layout with the largest container among those that leave out the fewest words. Words
+// shrink to 0.7 of their size before any of them is left out, and where the container gains by it.
 PictureLayout plan_layout(const FilmedScene& scene);
 
 }  // namespace grainreel

@@ -25,8 +25,7 @@ Overlay::Overlay(const FilmedScene& scene, const Palette& palette, const Picture
       palette_(palette),
       layout_(layout),
       type_(layout.type),
-      plan_(plan_numbers({nullptr, type_, palette_}, scene, layout.second.width, layout.second.height,
-                         layout.stacked)),
+      plan_(plan_numbers({nullptr, type_, palette_}, scene, layout)),
       captions_(plan_captions(scene.film, layout.caption.width)),
       first_plates_(plates_around(
           first_part({nullptr, type_, palette_}, scene, &view, layout, layout.first.width).boxes, type_,

@@ -22,7 +22,8 @@ constexpr double note_width = 0.22;       // in a row, as a share of the gutter'
 constexpr double caption_letters = 11;    // in a row, the caption's width in heights of minor letters
 
 Rectangle whole(double x, double y, double width, double height) {
-    return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)};
+    const auto first = [](double pixels) { return static_cast<int>(pixels); };
+    return {first(x), first(y), first(x + width) - first(x), first(y + height) - first(y)};
 }
 
 // Whether arrows and dial are wanted; they are left out where there is no room.
@@ -32,14 +33,15 @@ struct Wanted {
 
 class Planner {
   public:
+    // at_left: the gutter is a column at the picture's left border, from which words keep a whole margin.
     Planner(const Writer& measure, const FilmedScene& scene, double width, double height, bool stacked,
-            Wanted wanted)
+            bool at_left, Wanted wanted)
         : measure_(measure),
           type_(measure.type),
           scene_(scene),
           width_(width),
           height_(height > 0 ? height : 1e9),
-          x_(stacked ? measure.type.margin : 0.5 * measure.type.margin),
+          x_(stacked || at_left ? measure.type.margin : 0.5 * measure.type.margin),
           inner_(std::max(1.0, width - (stacked ? 2.0 : 1.5) * measure.type.margin)),
           line_(measure.write(0, 0, "0", measure.minor(), {}).height),
           clock_(clock_block(measure, scene, widest_frame(), 0, 0)) {
@@ -56,7 +58,7 @@ class Planner {
 
     NumbersPlan column();
     NumbersPlan rows();
-    NumbersPlan row();
+    NumbersPlan row(bool plots_below = false);
 
   private:
     bool has_drive() const { return plan_.has_dial || drive_.height > 0; }
@@ -159,7 +161,8 @@ void Planner::plots_in_row(double x, double y, double width, double height) {
     plan_.height = std::max(plan_.height, y + each);
 }
 
-// The plan below a narrow picture: three rows with clock and caption, dial and numbers, and plots.
+// The plan below a narrow picture whose words do not fit beside each other: three rows with clock and
+// caption, dial and numbers, and plots.
 NumbersPlan Planner::rows() {
     const bool has_clock = clock_.height > 0;
     const double top = type_.margin, beside = has_clock ? clock_.width + 2 * type_.gap : 0;
@@ -212,8 +215,8 @@ NumbersPlan Planner::rows() {
     return plan_;
 }
 
-// The plan below a wide picture: everything in one row.
-NumbersPlan Planner::row() {
+// The plan below a wide picture: everything in one row. plots_below: plots have a second row.
+NumbersPlan Planner::row(bool plots_below) {
     const double gap = 2 * type_.gap, top = 0.5 * type_.margin;
     double x = x_;
     const auto next = [&](double width) {
@@ -246,7 +249,10 @@ NumbersPlan Planner::row() {
     plan_.height = height;
     plan_.width = x - gap - x_;
     plan_.fits = plan_.width <= inner_ && height <= height_ - 0.5 * type_.margin;
-    plots_in_row(x, top, x_ + inner_ - x, height - top);
+    if (plots_below)
+        plots_in_row(x_, height + type_.gap, inner_, 0);
+    else
+        plots_in_row(x, top, x_ + inner_ - x, height - top);
     plan_.boxes = {{x_, top, inner_, plan_.height - top}};
     return plan_;
 }
@@ -254,26 +260,33 @@ NumbersPlan Planner::row() {
 }  // namespace
 
 NumbersPlan plan_numbers(const Writer& measure, const FilmedScene& scene, double width, double height,
-                         bool stacked) {
+                         bool stacked, bool at_left) {
     if (width <= 0) {  // there is no gutter
         NumbersPlan none;
         none.has_dial = none.has_arrows = false;
         return none;
     }
     const auto planner = [&](Wanted wanted) {
-        return Planner(measure, scene, width, height, stacked, wanted);
+        return Planner(measure, scene, width, height, stacked, at_left, wanted);
     };
     if (!stacked) {
         const NumbersPlan plan = planner({false, true}).column();
         return plan.fits ? plan : planner({false, false}).column();
     }
     const std::size_t plots = scene.film.shows.plots.size();
-    NumbersPlan plan = planner({}).row();
-    if (plan.fits && plan.plots.size() == plots) return plan;
-    plan = planner({}).rows();
+    for (const bool plots_below : {false, true}) {
+        const NumbersPlan plan = planner({}).row(plots_below);
+        if (plan.fits && plan.plots.size() == plots) return plan;
+    }
+    NumbersPlan plan = planner({}).rows();
     if (!plan.fits) plan = planner({false, true}).rows();
     if (!plan.fits) plan = planner({false, false}).rows();
     return plan;
+}
+
+NumbersPlan plan_numbers(const Writer& measure, const FilmedScene& scene, const PictureLayout& layout) {
+    const Rectangle& gutter = layout.second;
+    return plan_numbers(measure, scene, gutter.width, gutter.height, layout.stacked, gutter.x == 0);
 }
 
 }  // namespace grainreel
