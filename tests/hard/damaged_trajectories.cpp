@@ -89,7 +89,8 @@ std::string how_pictures_differ(const fs::path& wanted, const fs::path& drawn) {
 
 Group damaged_trajectories(const Ground& ground) {
     const std::string whole = test::text_of(ground.run / "trajectory.nc");
-    return {"trajectories", 300, [=](int, Dice& dice, const fs::path& here) -> Outcome {
+    return {"trajectories", 300,
+            [=](int, Dice& dice, const fs::path& here) -> Outcome {
                 fs::copy(ground.run, here / "run");
                 const std::string bytes = damaged_somewhere(whole, dice);
                 test::write_text(here / "run/trajectory.nc", bytes);
@@ -105,7 +106,8 @@ Group damaged_trajectories(const Ground& ground) {
                 const std::string difference = how_pictures_differ(ground.pictures, here / "drawn/frames");
                 if (!difference.empty()) return {"", "false success: exit status 0, but " + difference};
                 return {bytes == whole ? "undamaged" : "drawn alike", ""};
-            }};
+            },
+            0, 100};
 }
 
 }  // namespace grainreel::hard

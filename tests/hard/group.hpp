@@ -41,6 +41,7 @@ struct Group {
     // Runs a case in an empty folder of its own, which is kept if there is a problem.
     std::function<Outcome(int number, Dice& dice, const std::filesystem::path& here)> run;
     int when_all_run = 0;  // number of cases when all groups run; 0: all of them
+    int in_a_turn = 0;     // number of cases in a turn of --turn; 0: as when all groups run
 };
 
 // A finished run of fifty grains and pictures of it, with which the cases begin.

@@ -1,4 +1,6 @@
-// The program hard_day [GROUP [CASE]] [--seed N] runs all groups, one group, or one case of it.
+// The program hard_day [GROUP [CASE]] [--seed N] runs all groups, one group, or one case of it. With --turn N
+// it runs all groups, the long ones with a part of their cases: each turn has the part that follows, so that
+// many turns have them all.
 #include <sched.h>
 #include <sys/mount.h>
 #include <unistd.h>
@@ -9,6 +11,7 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include <fmt/format.h>
@@ -25,6 +28,7 @@ struct Wanted {
     std::string group;  // empty: all
     int number = -1;    // -1: all
     std::uint64_t seed = 1;
+    std::optional<int> turn;
 };
 
 // The folder where problems are kept until somebody has looked at them.
@@ -58,10 +62,13 @@ class Run {
 
   private:
     void work() {
-        const bool all = !wanted_.group.empty() || group_.when_all_run == 0;
-        const int cases = all ? group_.cases : group_.when_all_run;
-        for (int number; (number = next_++) < cases;)
-            if (wanted_.number < 0 || number == wanted_.number) one(number);
+        int count = wanted_.group.empty() ? group_.when_all_run : 0;
+        if (wanted_.turn && group_.in_a_turn > 0) count = group_.in_a_turn;
+        if (count == 0) count = group_.cases;
+        const int first = wanted_.turn.value_or(0) % group_.cases * count % group_.cases;
+        for (int k; (k = next_++) < count;)
+            if (const int number = (first + k) % group_.cases; wanted_.number < 0 || number == wanted_.number)
+                one(number);
     }
 
     void one(int number) {
@@ -111,6 +118,8 @@ Wanted read_words(int count, char** words) {
     for (int i = 1; i < count; ++i) {
         if (std::strcmp(words[i], "--seed") == 0 && i + 1 < count)
             wanted.seed = std::stoull(words[++i]);
+        else if (std::strcmp(words[i], "--turn") == 0 && i + 1 < count)
+            wanted.turn = std::stoi(words[++i]);
         else if (wanted.group.empty())
             wanted.group = words[i];
         else

@@ -9,11 +9,10 @@ trap 'rm -rf "$here"' EXIT
 
 fail() { echo "FAILED: $*" >&2; exit 1; }
 
-# It begins as after ./movie, which builds the program alone: what else the packages hold is not there yet. (Of the engine's
-# library only the archive goes: its objects take long to compile, and the picture's show that cpack compiles.)
+# It begins as after ./movie, which builds the program alone: what else the packages hold is not there yet. (The objects of the
+# two libraries stay, because they take long to compile.)
 cd "$build"
 rm -f engine/libgrainreel_engine_library.a render/libgrainreel_picture_library.a
-find render/CMakeFiles/grainreel_picture_library.dir -name '*.o' -delete
 cpack -B "$here/made" >"$here/cpack.log" 2>&1 || { cat "$here/cpack.log"; fail "cpack made no packages"; }
 package=$(echo "$here"/made/grainreel_*.deb)
 (($(stat -c %s "$package") < 10000000)) || fail "$package is larger than 10 MB"

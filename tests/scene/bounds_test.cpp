@@ -57,6 +57,28 @@ TEST(Bounds, APlaneAlongAPeriod) {
     EXPECT_EQ(with_plane(periodic, "[0, -0.6, 0.8]"), "");
 }
 
+// A plane in a face of the container, or in another plane, would be touched twice. One that leaves it is
+// none.
+TEST(Bounds, APlaneInAnotherPlane) {
+    const auto with_plane = [](const std::string& text, const char* keys) {
+        return complaint(fmt::format("{}\n[[wall]]\n{}\n", text, keys));
+    };
+    const auto refused = [](const char* other) { return tells({"'point'", other, "would touch both"}); };
+    const std::string one = "point = [0, 0, 0.005]\nnormal = [0, 0.6, 0.8]\n",
+                      planes = box_text + "\n[[wall]]\nname = \"ramp\"\n" + one;
+    EXPECT_THAT(with_plane(planes, "point = [1, 0.8, -0.595]\nnormal = [0, 3, 4]"), refused("\"ramp\""));
+    EXPECT_EQ(with_plane(planes, "point = [1, 0.8, -0.595]\nnormal = [0, -3, -4]"), "") << "the other side";
+    EXPECT_EQ(with_plane(planes, "point = [0, 0, 0.006]\nnormal = [0, 3, 4]"), "") << "a millimetre above";
+    EXPECT_EQ(with_plane(planes, "point = [0, 0, 0.005]\nnormal = [0, 3, 4]\nvelocity = [0, 0, 1]"), "");
+    EXPECT_THAT(with_plane(planes, "point = [0, 0, 0.005]\nnormal = [0, 3, 4]\nvelocity = [1, 0, 0]"),
+                refused("\"ramp\""));
+    EXPECT_THAT(with_plane(box_text, "point = [1, 1, 0]\nnormal = [0, 0, 1]"), refused("floor"));
+    EXPECT_THAT(with_plane(wedge_text, "point = [0, 0, 0.18]\nnormal = [0, 0, -1]"), refused("lid"));
+    EXPECT_THAT(with_plane(wedge_text, "point = [0, 0, 0]\nnormal = [0, 0, 1]\nmoves = true"),
+                refused("floor"));
+    EXPECT_EQ(with_plane(wedge_text, "point = [0, 0, 0]\nnormal = [0, 0, 1]"), "") << "the floor shakes";
+}
+
 TEST(Bounds, GrainsThatJustFit) {
     for (const char* size : {"2.2", "3.3", "5.6", "6.7", "7.1"}) {
         const std::string mm = fmt::format("{} mm", size), um = fmt::format("{}00 µm", size);

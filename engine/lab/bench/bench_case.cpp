@@ -11,6 +11,7 @@
 #include "engine/lab/bench/peers_bed.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
+#include "engine/start/radius_growth.hpp"
 #include "engine/step/surroundings.hpp"
 
 namespace grainreel {

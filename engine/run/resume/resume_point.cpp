@@ -150,8 +150,14 @@ bool is_named(const std::string& key, const std::vector<std::string>& accepted) 
     });
 }
 
+// Whether a name stands for keys that can change. The run's scene has friction by pairs.
+bool can_be_named(const std::string& name) {
+    return name == "drive.g_level" || is_of_drive(name) ||
+           (name.starts_with("contact.") && (ends_in(name, "friction") || ends_in(name, "rolling_friction")));
+}
+
 void check_can_change(const std::string& key) {
-    if (is_of_drive(key) || is_friction(key)) return;
+    if (can_be_named(key)) return;
     throw UserError(
         fmt::format("--accept: '{}' cannot change while a run goes on; these can: drive.g_level, "
                     "drive.amplitude, contact.friction, contact.rolling_friction",
@@ -165,6 +171,7 @@ std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkp
     std::vector<AcceptedChange> changes;
     const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
     if (!label) return changes;
+    for (const std::string& name : accepted) check_can_change(name);
     for (const KeyDifference& difference : deciding_differences(label->scene, scene_to_keep(scene, plan))) {
         check_can_change(difference.key);
         if (!is_named(difference.key, accepted))
@@ -179,8 +186,8 @@ std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkp
         if (std::none_of(changes.begin(), changes.end(),
                          [&](const AcceptedChange& change) { return is_named(change.key, {name}); }))
             throw UserError(
-                fmt::format("--accept: '{}' is what it was in this run, or is no key that can "
-                            "change; give a value, as in drive.g_level=3",
+                fmt::format("--accept: '{}' is what it was in this run; give it another value, as in "
+                            "drive.g_level=3",
                             name));
     return changes;
 }

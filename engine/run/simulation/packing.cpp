@@ -19,6 +19,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/held_histories.hpp"
 #include "engine/start/layers.hpp"
+#include "engine/start/radius_growth.hpp"
 #include "engine/start/rain.hpp"
 #include "engine/start/restart.hpp"
 #include "engine/start/settle.hpp"

@@ -282,20 +282,6 @@ void check_paths(const Scene& scene) {
     }
 }
 
-// In a container with a periodic depth a plane must be the same after each period along x, so its normal may
-// not have a part along x.
-void check_planes_of_period(const Scene& scene) {
-    constexpr double rounding = 1e-9;
-    if (!scene.container.periodic_depth) return;
-    for (std::size_t k = 0; k < scene.walls.size(); ++k)
-        if (const Vec3& normal = scene.walls[k].normal; std::abs(normal.x()) > rounding)
-            fail(scene, fmt::format("wall[{}].normal", k),
-                 fmt::format(
-                     "is [{:.4g}, {:.4g}, {:.4g}], but a plane that leans along x would jump where the depth "
-                     "is periodic; make its first number 0, or take out container.periodic_depth",
-                     normal.x(), normal.y(), normal.z()));
-}
-
 // Refuses what cannot go together with meshes.
 void check_company(const Scene& scene) {
     const Container& c = scene.container;
@@ -332,12 +318,6 @@ void check_turn(const Scene& scene) {
              "gravity, as in gravity = [0, -9.81, 0], or take a [[mesh]]");
 }
 
-double smallest_diameter(const Scene& scene) {
-    double smallest = scene.species.front().diameter.smallest;
-    for (const Species& species : scene.species) smallest = std::min(smallest, species.diameter.smallest);
-    return smallest;
-}
-
 // If the scene has no exits, its vessel must have no hole through which grains could leave.
 void check_vessel(const Scene& scene) {
     const SceneMesh* vessel = scene.vessel();
@@ -356,7 +336,7 @@ void check_vessel(const Scene& scene) {
 void check_meshes(const Scene& scene) {
     check_mesh_names(scene);
     check_company(scene);
-    check_planes_of_period(scene);
+    check_walls(scene);
     check_turn(scene);
     check_paths(scene);
     check_vessel(scene);
@@ -382,6 +362,12 @@ std::vector<std::string> doubts_of_meshes(const Scene& scene) {
                             start, smallest));
     }
     return doubts;
+}
+
+double smallest_diameter(const Scene& scene) {
+    double smallest = scene.species.front().diameter.smallest;
+    for (const Species& species : scene.species) smallest = std::min(smallest, species.diameter.smallest);
+    return smallest;
 }
 
 }  // namespace grainreel

@@ -174,8 +174,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_drawn = 48, least_drawn = 4;
-constexpr double patience = 1.5;  // s after which no further frame is begun
+constexpr int most_drawn = 32, least_drawn = 4;
+constexpr double patience = 0.6;  // s after which no further frame is begun
 constexpr std::int64_t most_grains = 200'000;
 constexpr double shaken_fraction = 0.5;  // solid fraction of a shaken bed
 // The time for a frame of a run, divided by that for a frame of the stack, in which more grains are visible.

@@ -406,7 +406,9 @@ TEST_F(ResumedRun, WhatWouldOverlapOrChangeTheGrainsIsNotAccepted) {
     refused("drive.g_level=8", "--accept: grains would overlap by");
     refused("gravity=[0.0, 0.0, -1.6]", "'gravity' cannot change while a run goes on");
     refused("drive.frequency=10 Hz", "cannot change while a run goes on");
-    refused("contact.restitution=0.5", "--accept: 'contact.restitution' is what it was in this run");
+    refused("contact.restitution=0.5", "--accept: 'contact.restitution' cannot change while a run goes on");
+    refused("contact.restitution", "--accept: 'contact.restitution' cannot change while a run goes on");
+    refused("contact.friction=0.4", "--accept: 'contact.friction' is what it was in this run");
     ASSERT_EQ(run({"resume", "run", "--for", "0.1 s"}).status, 0);
 }
 

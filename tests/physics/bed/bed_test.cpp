@@ -11,6 +11,7 @@
 #include "engine/scene/free_space.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
+#include "engine/start/radius_growth.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "tests/physics/world.hpp"

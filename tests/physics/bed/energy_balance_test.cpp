@@ -7,6 +7,7 @@
 #include "engine/plan/damping.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
+#include "engine/start/radius_growth.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/support/small_scene.hpp"
 
