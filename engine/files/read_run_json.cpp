@@ -1,5 +1,6 @@
 // Reads run.json, of which nothing is trusted.
 #include <array>
+#include <charconv>
 #include <concepts>
 #include <cstdint>
 #include <filesystem>

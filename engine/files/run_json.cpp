@@ -6,7 +6,6 @@
 #include <unistd.h>
 #include <xxhash.h>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <concepts>
 #include <ctime>
@@ -201,9 +200,10 @@ void write_run_json(const std::filesystem::path& path, const RunJson& r) {
 }
 
 void complete_run_json(const std::filesystem::path& path, const std::string& page) {
-    std::string fault;
-    Json document = parsed(path, fault);
-    if (!fault.empty() || !document["written"].is_object())
+    const std::string fault = read_run_json(path).fault;
+    std::ifstream file = read_plain(path);
+    Json document = Json::parse(file, nullptr, false);
+    if (!fault.empty() || !document.is_object() || !document["written"].is_object())
         throw RunError(fmt::format("{}: cannot be read", path.string()));
     document["status"] = to_string(RunStatus::complete);
     document["exit_status"] = 0;

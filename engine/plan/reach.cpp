@@ -102,7 +102,8 @@ double farthest_from_axis(const Container& c, const BodyTurn& turn) {
     return farthest;
 }
 
-double smallest_diameter(const Scene& scene) {
+// Of the species of which grains come.
+double smallest_that_comes(const Scene& scene) {
     double smallest = std::numeric_limits<double>::infinity();
     for (const Species& species : scene.species)
         if (species.all() > 0) smallest = std::min(smallest, species.diameter.smallest);
@@ -112,7 +113,7 @@ double smallest_diameter(const Scene& scene) {
 // Throws at the key that makes the wall so fast.
 void check_rim(const Scene& scene, const std::string& key, const std::string& name, double speed,
                double step) {
-    const double smallest = smallest_diameter(scene), moved = speed * step;
+    const double smallest = smallest_that_comes(scene), moved = speed * step;
     if (!(moved > most_of_a_grain * smallest)) return;
     throw UserError(fmt::format(
         "{}: {} moves at up to {:.4g} m/s, by {:.3g} m in a step of {:.4g} s, which is {:.2g} of the "

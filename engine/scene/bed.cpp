@@ -28,6 +28,12 @@ double mean_cube(const SizeSpread& d) {
     return d.mean * d.mean * d.mean + 3 * d.mean * variance;
 }
 
+double smallest_diameter(const Scene& scene) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Species& species : scene.species) smallest = std::min(smallest, species.diameter.smallest);
+    return smallest;
+}
+
 double largest_diameter(const Scene& scene) {
     double largest = 0;
     for (const Species& species : scene.species) largest = std::max(largest, species.diameter.largest);

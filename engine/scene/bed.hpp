@@ -10,6 +10,7 @@ class Random;  // engine/base/random.hpp
 
 double mean_cube(const SizeSpread& diameter);  // m3, the mean of d^3
 double largest_diameter(const Scene& scene);   // m, the largest that a grain of any species may have
+double smallest_diameter(const Scene& scene);  // m, the smallest; infinite without species
 // Sums and means over all grains, including those that come during the run.
 double solid_volume(const Scene& scene);   // m3
 double mean_diameter(const Scene& scene);  // m

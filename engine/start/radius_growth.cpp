@@ -12,8 +12,7 @@
 #include "engine/base/mathematics.hpp"
 #include "engine/base/random.hpp"
 #include "engine/mesh/surface.hpp"
-#include "engine/scene/bed.hpp"
-#include "engine/scene/free_space.hpp"
+#include "engine/start/starting_room.hpp"
 #include "engine/step/grid/neighbours.hpp"
 
 namespace grainreel {
@@ -200,11 +199,8 @@ void move_stuck_grains(Growing& g, const StepLoop& loop) {
     const std::vector<std::size_t> stuck = stuck_grains(g, loop);
     if (stuck.empty()) return;
     if (!g.other_places) g.other_places.emplace(g.scene.run.seed + 1, Stream::centres);
-    double volume = 0;
-    for (const Species& s : g.scene.species) volume += solid_volume(s);
-    const Room room(g.scene);
-    const double share = std::min(1.0, volume / kLooseFraction / room.space.volume());
-    const double bottom = room.space.height_of_share(0), top = room.space.height_of_share(share);
+    const StartingRoom room(g.scene);
+    const double bottom = room.space.height_of_share(0), top = room.space.height_of_share(room.filled);
     for (const std::size_t i : stuck) {
         const double radius = g.wanted_of(i), margin = std::min(0.5 * radius, 0.25 * (top - bottom));
         g.grains.place[i].position = room.random_centre(bottom, top, margin, radius, *g.other_places);

@@ -9,8 +9,8 @@
 namespace grainreel {
 
 struct GrainShape {
-    Vec3 half = Vec3::Zero();       // m: a, b, c along the grain's own axes
-    double along = 2, around = 2;   // powers ("blockiness 1 and 2"); with 2 and 2 it is an ellipsoid
+    Vec3 half = Vec3::Zero();      // m: a, b, c along the grain's own axes
+    double along = 2, around = 2;  // powers ("blockiness 1 and 2"); with 2 and 2 it is an ellipsoid
 };
 
 constexpr double kMostBlockiness = 100;  // beyond it a superquadric is a box or a cylinder

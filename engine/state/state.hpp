@@ -44,10 +44,10 @@ struct State {
     std::vector<std::int32_t> id;
     std::vector<std::int32_t> species;
     std::vector<double> radius;  // of a grain with a shape: that of the sphere with its volume
-    std::vector<double> mass;  // empty where all grains have the density of their species
+    std::vector<double> mass;    // empty where all grains have the density of their species
     std::vector<Vec3> position, velocity, spin;
     std::vector<Quaternion> orientation;  // empty unless the scene asks for it
-    std::vector<GrainShape> shape;  // empty where all grains are spheres; with shapes go orientations
+    std::vector<GrainShape> shape;        // empty where all grains are spheres; with shapes go orientations
     std::vector<std::int32_t>
         contact_number;  // number of contacts of a grain that carry force; empty where unknown
 

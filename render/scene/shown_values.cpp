@@ -106,12 +106,6 @@ double top_of_bed(const Scene& scene) {
     return fill_height(scene, packing) + half;  // plus half a grain, since the surface is uneven
 }
 
-double smallest_diameter(const Scene& scene) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const Species& species : scene.species) smallest = std::min(smallest, species.diameter.smallest);
-    return smallest;
-}
-
 // N: the force on a grain of mean volume under the weight of the bed, at the drive's peak acceleration.
 double force_scale(const Scene& scene) {
     const double gravity = scene.gravity.norm();

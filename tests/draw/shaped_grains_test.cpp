@@ -49,7 +49,8 @@ Spheres drawn_as(const State& state) {
 // How far a point is out of a superquadric: 1 on its surface (Podlozhnyuk et al. 2017, eq. 1).
 double level(const Vec3& point, const State& state, std::size_t grain) {
     const GrainShape& shape = state.shape[grain];
-    const Vec3 own = (state.orientation[grain].conjugate() * (point - state.position[grain])).cwiseQuotient(shape.half);
+    const Vec3 own =
+        (state.orientation[grain].conjugate() * (point - state.position[grain])).cwiseQuotient(shape.half);
     return std::pow(std::pow(std::abs(own.x()), shape.around) + std::pow(std::abs(own.y()), shape.around),
                     shape.along / shape.around) +
            std::pow(std::abs(own.z()), shape.along);
@@ -70,8 +71,9 @@ bool meets(const Sight& sight, const State& state, double x, double y) {
 const Quaternion kTurned = Quaternion(0.8, 0.3, -0.4, 0.33).normalized();
 
 TEST(ShapedGrains, AreSeenWhereRaysMeetThem) {
-    for (const GrainShape& shape : {GrainShape{Vec3(3, 1, 0.5)}, GrainShape{Vec3(2, 1.5, 1), 6, 2},
-                                    GrainShape{Vec3(1, 2, 1.5), 2.5, 9}, GrainShape{Vec3(2, 1, 1.5), 100, 100}})
+    for (const GrainShape& shape :
+         {GrainShape{Vec3(3, 1, 0.5)}, GrainShape{Vec3(2, 1.5, 1), 6, 2}, GrainShape{Vec3(1, 2, 1.5), 2.5, 9},
+          GrainShape{Vec3(2, 1, 1.5), 100, 100}})
         for (const Sight& sight : {kPerspective, kOrthographic}) {
             const State state = grains_of({Vec3(0.4, -0.3, 12)}, shape, kTurned);
             Visibility visibility(kWidth, kHeight);
@@ -103,8 +105,8 @@ std::vector<std::uint32_t> lit(const Spheres& spheres, const Sight& sight, const
 }
 
 TEST(ShapedGrains, WithEqualHalfLengthsLookLikeSpheres) {
-    const State state = grains_of({Vec3(0, 0, 12), Vec3(1.7, 0.4, 12.3), Vec3(0.2, 1.6, 11)},
-                                  {Vec3(1, 1, 1)}, kTurned);
+    const State state =
+        grains_of({Vec3(0, 0, 12), Vec3(1.7, 0.4, 12.3), Vec3(0.2, 1.6, 11)}, {Vec3(1, 1, 1)}, kTurned);
     State spheres = state;
     spheres.shape.clear();
     Cut cut;
@@ -143,8 +145,10 @@ TEST(ShapedGrains, AreLitByTheirNormals) {
             if (b * b - a * c < 0.05) continue;
             const Vec3 point = from + (-b - std::sqrt(b * b - a * c)) / a * Vec3(0, 0, 1);
             const Vec3 normal = (unit.transpose() * (unit * point)).normalized();
-            const auto expected = static_cast<int>(ToneTable::get().byte(0.5f * static_cast<float>(-normal.z())));
-            EXPECT_NEAR(static_cast<int>(pixels[static_cast<std::size_t>(y) * kWidth + x] & 255), expected, 2);
+            const auto expected =
+                static_cast<int>(ToneTable::get().byte(0.5f * static_cast<float>(-normal.z())));
+            EXPECT_NEAR(static_cast<int>(pixels[static_cast<std::size_t>(y) * kWidth + x] & 255), expected,
+                        2);
             ++compared;
         }
     EXPECT_GT(compared, 50);
@@ -157,7 +161,8 @@ TEST(ShapedGrains, HaveBallsInsideThatTakeLight) {
         ASSERT_GT(spheres.spheres.size(), 1u);
         for (const ViewSphere& ball : spheres.spheres)
             for (int k = 0; k < 200; ++k) {
-                const double height = 1 - (2 * k + 1) / 200.0, turn = 2.4 * k, flat = std::sqrt(1 - height * height);
+                const double height = 1 - (2 * k + 1) / 200.0, turn = 2.4 * k,
+                             flat = std::sqrt(1 - height * height);
                 const Vec3 out(flat * std::cos(turn), flat * std::sin(turn), height);
                 EXPECT_LE(level(Vec3(ball.x, ball.y, ball.z) + ball.radius * out, state, 0), 1 + 1e-5);
             }
@@ -171,7 +176,8 @@ TEST(GrainShape, HasTheVolumeOfItsFormulas) {
     EXPECT_NEAR(cube(radius_by_volume({half})), half.prod(), 1e-12);
     // Powers of 100 are a cylinder with the axis z, and a box, within a few parts in ten thousand.
     const double ball = 4.0 / 3 * std::numbers::pi;
-    EXPECT_NEAR(ball * cube(radius_by_volume({half, 100, 2})) / (2 * std::numbers::pi * half.prod()), 1, 0.02);
+    EXPECT_NEAR(ball * cube(radius_by_volume({half, 100, 2})) / (2 * std::numbers::pi * half.prod()), 1,
+                0.02);
     EXPECT_NEAR(ball * cube(radius_by_volume({half, 100, 100})) / (8 * half.prod()), 1, 0.02);
 }
 

@@ -369,7 +369,8 @@ TEST(ShapesOfGrains, AreToldWhereTheyAreNoSpheres) {
                 tells({"no spheres", "ellipsoids", "same volume"}));
 }
 
-// LAMMPS' columns hold whole lengths, LIGGGHTS' half lengths; both with the real part of the quaternion first.
+// LAMMPS' columns hold whole lengths, LIGGGHTS' half lengths; both with the real part of the quaternion
+// first.
 TEST(ShapesOfGrains, AreReadWhereTheirAxesAreKnown) {
     const TemporaryFolder folder;
     const auto read = [&](const char* names, const char* row, const ReadingOptions& options = {}) {
@@ -392,8 +393,9 @@ TEST(ShapesOfGrains, AreReadWhereTheirAxesAreKnown) {
     const State spheres = read(of_liggghts, "1 0 0 0 0.5 0.4 0.2 0.1 0.6 0 0.8 0 8 2\n", options);
     EXPECT_TRUE(spheres.shape.empty());
     EXPECT_EQ(spheres.radius[0], 0.3);
-    for (const char* absurd : {"1 0 0 0 0.5 0 0.2 0.1 1 0 0 0 8 2\n", "1 0 0 0 0.5 0.4 0.2 0.1 1 0 0 0 1 2\n",
-                               "1 0 0 0 0.5 nan 0.2 0.1 1 0 0 0 8 2\n", "1 0 0 0 0.5 1e9 0.2 0.1 1 0 0 0 8 2\n"})
+    for (const char* absurd :
+         {"1 0 0 0 0.5 0 0.2 0.1 1 0 0 0 8 2\n", "1 0 0 0 0.5 0.4 0.2 0.1 1 0 0 0 1 2\n",
+          "1 0 0 0 0.5 nan 0.2 0.1 1 0 0 0 8 2\n", "1 0 0 0 0.5 1e9 0.2 0.1 1 0 0 0 8 2\n"})
         EXPECT_THROW(read(of_liggghts, absurd), UserError) << absurd;
 }
 

@@ -85,7 +85,8 @@ GrainMeaning::GrainMeaning(const RawFacts& facts, const RawFrame& frame, const R
     if (flat_) check_flat(frame);
     quaternion_ = {find("qw"), find("qx"), find("qy"), find("qz")};
     shapes_ = ShapeColumns(table, options_, file_);
-    has_shapes_ = !shapes_.telling().empty() && shapes_.has_extents() && has_orientations() && !is_radius_said();
+    has_shapes_ =
+        !shapes_.telling().empty() && shapes_.has_extents() && has_orientations() && !is_radius_said();
     find_radius(table);
     density_ = find("density");
     mass_ = find("mass");
@@ -144,18 +145,17 @@ void GrainMeaning::tell_of_unwrapped(const RawFrame& frame) {
 
 void GrainMeaning::tell_of_shapes() {
     if (shapes_.telling().empty()) return;
-    const std::string beginning = fmt::format("{}: has grains that are no spheres ({})", file_,
-                                              fmt::join(shapes_.telling(), ", "));
+    const std::string beginning =
+        fmt::format("{}: has grains that are no spheres ({})", file_, fmt::join(shapes_.telling(), ", "));
     if (has_shapes_) {
-        guesses_.push_back(
-            fmt::format("{}; they are drawn as {}, and measured as spheres of the same volume", beginning,
-                        shapes_.any_blockiness() ? "superquadrics" : "ellipsoids"));
+        guesses_.push_back(fmt::format("{}; they are drawn as {}, and measured as spheres of the same volume",
+                                       beginning, shapes_.any_blockiness() ? "superquadrics" : "ellipsoids"));
         return;
     }
     const std::string size = radius_ ? fmt::format("the {} in its column {}",
                                                    is_diameter_ ? "diameter" : "radius", names_[*radius_])
                                      : std::string("the radius of --radius");
-    const std::string why = is_radius_said()         ? ""
+    const std::string why = is_radius_said()        ? ""
                             : shapes_.has_extents() ? "; it does not say how they are turned"
                                                     : "; it does not say how long they are along their axes";
     guesses_.push_back(

@@ -107,12 +107,14 @@ void GrainMeaning::add_shape(const RawTable& table, std::size_t row, const std::
     const GrainShape shape = shapes_.shape(table, row, place_unit_);
     const double radius = is_possible(shape) ? radius_by_volume(shape) : 0;
     if (!(radius > 0 && radius <= kLargestRadius))
-        throw UserError(fmt::format(
-            "{}: the grain in row {} has the half lengths {:g}, {:g}, {:g} m and the powers {:g} and {:g}, which no "
-            "grain has (lengths are above 0, powers from 2 to {:g}); mend the row, or let --radius draw all grains as "
-            "spheres",
-            place, row + 1, shape.half.x(), shape.half.y(), shape.half.z(), shape.along, shape.around,
-            kMostBlockiness));
+        throw UserError(
+            fmt::format("{}: the grain in row {} has the half lengths {:g}, {:g}, {:g} m and the powers {:g} "
+                        "and {:g}, which no "
+                        "grain has (lengths are above 0, powers from 2 to {:g}); mend the row, or let "
+                        "--radius draw all grains as "
+                        "spheres",
+                        place, row + 1, shape.half.x(), shape.half.y(), shape.half.z(), shape.along,
+                        shape.around, kMostBlockiness));
     state.shape.push_back(shape);
     state.radius.push_back(radius);
 }

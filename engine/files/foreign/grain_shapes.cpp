@@ -38,10 +38,13 @@ ShapeColumns::ShapeColumns(const RawTable& table, const ReadingOptions& options,
     extent_ = three_columns({"shapex", "shapey", "shapez"}, table, options, file);
     share_ = extent_ && !is_of_liggghts(table) ? 0.5 : 1;
     if (!extent_) extent_ = three_columns({"semix", "semiy", "semiz"}, table, options, file);
-    power_ = {column_for("blockiness1", table, options, file), column_for("blockiness2", table, options, file)};
+    power_ = {column_for("blockiness1", table, options, file),
+              column_for("blockiness2", table, options, file)};
     const auto tells = [&](std::size_t column) { telling_.push_back(table.columns[column].name); };
     if (extent_) {
-        const auto of = [&](std::size_t k, std::size_t row) { return table.columns[(*extent_)[k]].values[row]; };
+        const auto of = [&](std::size_t k, std::size_t row) {
+            return table.columns[(*extent_)[k]].values[row];
+        };
         for (std::size_t row = 0; row < table.rows && telling_.empty(); ++row) {
             const auto [least, most] = std::minmax({of(0, row), of(1, row), of(2, row)});
             if (most - least > kHair * most) std::for_each(extent_->begin(), extent_->end(), tells);

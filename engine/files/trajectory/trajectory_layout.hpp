@@ -155,9 +155,12 @@ inline constexpr TrajectoryVariable mass_variable{
     "kg",   "mass of the grain", "as its file has it; 0 in a place without a grain"};
 
 // Only in files of other programs' runs whose grains are ellipsoids or superquadrics.
-inline constexpr TrajectoryVariable half_lengths_variable{
-    "half_lengths", NC_FLOAT, "spatial", "m", "half the lengths of the grain along its own axes",
-    "0 in a place without a grain"};
+inline constexpr TrajectoryVariable half_lengths_variable{"half_lengths",
+                                                          NC_FLOAT,
+                                                          "spatial",
+                                                          "m",
+                                                          "half the lengths of the grain along its own axes",
+                                                          "0 in a place without a grain"};
 inline constexpr TrajectoryVariable blockiness_variable{
     "blockiness",
     NC_FLOAT,

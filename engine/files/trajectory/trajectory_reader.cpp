@@ -159,7 +159,8 @@ struct TrajectoryReader::Impl {
     std::vector<std::size_t> places_of(std::size_t index, std::size_t n) const;
     void read_grains(std::size_t index, std::size_t n, State& frame) const;
     // here: the places of the grains. sum: gets the numbers that are read.
-    void read_shapes(std::size_t index, const std::vector<std::size_t>& here, State& frame, Checksum& sum) const;
+    void read_shapes(std::size_t index, const std::vector<std::size_t>& here, State& frame,
+                     Checksum& sum) const;
 
     std::string source;  // for messages
     NetcdfFile file;

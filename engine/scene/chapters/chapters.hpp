@@ -56,8 +56,7 @@ void write_exits(SceneText& out, const Scene& scene);
 void list_walls(keys::Keys& all);
 void read_walls(Document& document, Scene& scene);
 void write_walls(SceneText& out, const Scene& scene);
-void check_walls(const Scene& scene);          // throws UserError where a plane cannot be where it is
-double smallest_diameter(const Scene& scene);  // m, of all species
+void check_walls(const Scene& scene);  // throws UserError where a plane cannot be where it is
 
 void list_grains(keys::Keys& all);
 void read_grains(Document& document, Scene& scene);  // after species and feeds

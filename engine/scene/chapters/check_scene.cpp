@@ -364,10 +364,4 @@ std::vector<std::string> doubts_of_meshes(const Scene& scene) {
     return doubts;
 }
 
-double smallest_diameter(const Scene& scene) {
-    double smallest = scene.species.front().diameter.smallest;
-    for (const Species& species : scene.species) smallest = std::min(smallest, species.diameter.smallest);
-    return smallest;
-}
-
 }  // namespace grainreel

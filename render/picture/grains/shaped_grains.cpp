@@ -20,8 +20,7 @@ ViewSphere ball(const Vec3& centre, double radius) {
 ViewShape view_shape(const GrainShape& shape, const Eigen::Matrix3d& axes) {
     ViewShape seen;
     for (int own = 0; own < 3; ++own)
-        for (int k = 0; k < 3; ++k)
-            seen.to_unit[own][k] = static_cast<float>(axes(k, own) / shape.half[own]);
+        for (int k = 0; k < 3; ++k) seen.to_unit[own][k] = static_cast<float>(axes(k, own) / shape.half[own]);
     seen.along = static_cast<float>(shape.along);
     seen.around = static_cast<float>(shape.around);
     return seen;
@@ -31,10 +30,11 @@ ViewShape shape_of_ball(double radius) {
     return view_shape({Vec3::Constant(radius)}, Eigen::Matrix3d::Identity());
 }
 
-// Adds balls along each axis on which the grain is long. Like the ball in the middle they lie within the grain,
-// so that they take no light from its own surface, and they overlap. On an axis of the half length a, a ball at
-// the distance x from the middle of an ellipsoid, whose shortest half length is c, touches its surface from
-// inside where its radius is c root(1 - x^2 / (a^2 - c^2)). In the corners of a superquadric there is more room.
+// Adds balls along each axis on which the grain is long. Like the ball in the middle they lie within the
+// grain, so that they take no light from its own surface, and they overlap. On an axis of the half length a,
+// a ball at the distance x from the middle of an ellipsoid, whose shortest half length is c, touches its
+// surface from inside where its radius is c root(1 - x^2 / (a^2 - c^2)). In the corners of a superquadric
+// there is more room.
 void add_balls(const Vec3& centre, const GrainShape& shape, const Eigen::Matrix3d& axes, Spheres& spheres) {
     constexpr double kLong = 1.2, kFarthest = 0.9;
     constexpr int kMost = 6;  // on each side

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/state/state.hpp"
-#include "render/picture/spheres/light/sphere_layer.hpp"
 #include "render/picture/base/view.hpp"
+#include "render/picture/spheres/light/sphere_layer.hpp"
 
 namespace grainreel {
 

@@ -1,6 +1,6 @@
-// Finds where lines of sight meet an ellipsoid or a superquadric. An ellipsoid has a closed form: along its own
-// axes, in half lengths, it is a sphere. A superquadric is convex, so Newton's method finds both ends of the
-// chord from outside.
+// Finds where lines of sight meet an ellipsoid or a superquadric. An ellipsoid has a closed form: along its
+// own axes, in half lengths, it is a sphere. A superquadric is convex, so Newton's method finds both ends of
+// the chord from outside.
 #if defined(GRAINREEL_SPHERES_MEET_SHAPE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_SPHERES_MEET_SHAPE_INL
 #undef GRAINREEL_SPHERES_MEET_SHAPE_INL
@@ -73,8 +73,8 @@ HWY_INLINE Reach reach_of(const Triple<F>& p, const ShapeLanes& shape) {
     return {size, {around * part_x / x, around * part_y / y, all * part_z / z}};
 }
 
-// Moves `place`, a point of the line closest + place * along outside of the shape, to where the line meets it.
-// side: 1 if the point comes before the shape, -1 if after it. Gives the lanes whose line misses.
+// Moves `place`, a point of the line closest + place * along outside of the shape, to where the line meets
+// it. side: 1 if the point comes before the shape, -1 if after it. Gives the lanes whose line misses.
 HWY_INLINE F::Mask approach(const Triple<F>& closest, const Triple<F>& along, const ShapeLanes& shape, F side,
                             F& place) {
     constexpr int kSteps = 14;

@@ -1,6 +1,7 @@
-// The hot loops of drawing spheres and other shapes of grains, and their arguments: spheres, lines of sight and cuts. View coordinates
-// (m) have x to the right, y up and z away from the eye; pixels count from the top left of the port. The
-// loops work on many pixels at once and are compiled for each instruction set; they are written in the files
+// The hot loops of drawing spheres and other shapes of grains, and their arguments: spheres, lines of sight
+// and cuts. View coordinates (m) have x to the right, y up and z away from the eye; pixels count from the top
+// left of the port. The loops work on many pixels at once and are compiled for each instruction set; they are
+// written in the files
 // *-inl.hpp of this folder.
 #pragma once
 
@@ -103,8 +104,8 @@ struct NeighbourSpan {
 
 struct LitGrain {
     ViewSphere sphere;
-    float albedo[3];            // linear
-    float pole[3] = {0, 0, 0};  // unit axis of a two-tone grain; 0 for plain ones
+    float albedo[3];                   // linear
+    float pole[3] = {0, 0, 0};         // unit axis of a two-tone grain; 0 for plain ones
     const ViewShape* shape = nullptr;  // null: the grain is a sphere
     NeighbourSpan occluders, casters;
 };

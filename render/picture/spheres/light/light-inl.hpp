@@ -142,7 +142,8 @@ void light_as(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGra
 template <class Form>
 void light_form(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGrain& grain, const Form& form,
                 const LitPoints& points) {
-    (sight.orthographic ? light_as<true, Form> : light_as<false, Form>)(sight, cut, lamp, grain, form, points);
+    (sight.orthographic ? light_as<true, Form> : light_as<false, Form>)(sight, cut, lamp, grain, form,
+                                                                        points);
 }
 
 void light(const Sight& sight, const Cut& cut, const Lamp& lamp, const LitGrain& grain,
