@@ -42,7 +42,8 @@ StartingRoom::StartingRoom(const Scene& scene)
       glued_(glue_grains(scene, faces_)),
       search_(glued_, faces_, period_of_depth(scene.container)) {}
 
-Vec3 StartingRoom::random_centre(double bottom, double top, double margin, double radius, Random& random) const {
+Vec3 StartingRoom::random_centre(double bottom, double top, double margin, double radius,
+                                 Random& random) const {
     const Vec3 &low = space.low(), &high = space.high();
     for (int draws = 1;; ++draws) {
         const double z = random.between(bottom, top);
@@ -58,10 +59,10 @@ Vec3 StartingRoom::random_centre(double bottom, double top, double margin, doubl
 // The margin shrinks with the number of draws, because a mesh or a region may leave only narrow places.
 double StartingRoom::narrower(double margin, int draws) const {
     if (draws < kMostDraws * kMostDraws) return 0.5 * margin;
-    throw UserError(fmt::format(
-        "{}: no place was found for a grain in {} draws: the vessel or the region leaves hardly "
-        "any room; make it larger, or take method = \"rain\"",
-        place_, draws));
+    throw UserError(
+        fmt::format("{}: no place was found for a grain in {} draws: the vessel or the region leaves hardly "
+                    "any room; make it larger, or take method = \"rain\"",
+                    place_, draws));
 }
 
 bool StartingRoom::is_clear(const Vec3& centre, double margin) const {

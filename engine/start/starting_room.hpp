@@ -19,8 +19,8 @@ class StartingRoom {
     explicit StartingRoom(const Scene& scene);
 
     // A centre between two heights (m) that keeps this margin (m) to the walls, as far as a vessel or a
-    // region with narrow places allows it. A grain of this radius (m) is not wedged between a mesh and another
-    // wall there. Throws UserError where there is hardly any room.
+    // region with narrow places allows it. A grain of this radius (m) is not wedged between a mesh and
+    // another wall there. Throws UserError where there is hardly any room.
     Vec3 random_centre(double bottom, double top, double margin, double radius, Random& random) const;
 
     const FreeSpace space;

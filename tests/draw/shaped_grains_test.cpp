@@ -139,7 +139,8 @@ TEST(ShapedGrains, AreLitByTheirNormals) {
     int compared = 0;
     for (int y = 40; y < 110; y += 5)
         for (int x = 60; x < 140; x += 5) {
-            const Vec3 from(kOrthographic.slope_x(x + 0.5f), kOrthographic.slope_y(y + 0.5f), -12);
+            const Vec3 from(kOrthographic.slope_x(static_cast<float>(x) + 0.5f),
+                            kOrthographic.slope_y(static_cast<float>(y) + 0.5f), -12);
             const Vec3 start = unit * from, along = unit.col(2);
             const double b = start.dot(along), a = along.squaredNorm(), c = start.squaredNorm() - 1;
             if (b * b - a * c < 0.05) continue;

@@ -276,6 +276,36 @@ State frame_with(const std::vector<std::int32_t>& ids, int number) {
     return frame;
 }
 
+// The shapes follow their grains where grains come and go.
+TEST(Trajectory, KeepsTheShapesOfGrains) {
+    const TemporaryFolder here;
+    TrajectoryInfo info = made_info(6, true);
+    info.shapes = info.traffic = true;
+    const auto shaped = [](const std::vector<std::int32_t>& ids, int number) {
+        State frame = frame_with(ids, number);
+        for (const std::int32_t id : ids)
+            frame.shape.push_back({Vec3(1, 2, 0.5) * (1 + id), 2.0 + id, 2.0 + 0.5 * id});
+        return frame;
+    };
+    const std::vector<State> frames{shaped({0, 1, 2}, 0), shaped({0, 2, 5}, 1)};
+    {
+        TrajectoryWriter writer(here / "t.nc", info);
+        for (const State& frame : frames) writer.write(frame);
+    }
+    const TrajectoryReader reader(here / "t.nc");
+    EXPECT_TRUE(reader.info().shapes);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        const State got = reader.read(f);
+        expect_same(got, frames[f]);
+        ASSERT_EQ(got.shape.size(), frames[f].size());
+        for (std::size_t i = 0; i < got.size(); ++i) {
+            EXPECT_EQ(got.shape[i].half, frames[f].shape[i].half);
+            EXPECT_EQ(got.shape[i].along, frames[f].shape[i].along);
+            EXPECT_EQ(got.shape[i].around, frames[f].shape[i].around);
+        }
+    }
+}
+
 // A grain that has gone keeps its place in the file, and a new grain gets the next one. In a place without a
 // grain stands one in the container's lowest corner, too small to be seen.
 TEST(Trajectory, EveryGrainKeepsItsPlaceWhereSomeComeAndGo) {
