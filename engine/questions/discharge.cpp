@@ -21,7 +21,7 @@ constexpr std::size_t least_times = 50;
 
 bool is_upright(const Scene& scene) {
     const Vec3& g = scene.gravity;
-    return g.z() < 0 && std::hypot(g.x(), g.y()) < 1e-9 * -g.z() && !scene.container.turn;
+    return g.z() < 0 && math::hypot(g.x(), g.y()) < 1e-9 * -g.z() && !scene.container.turn;
 }
 
 struct Series {

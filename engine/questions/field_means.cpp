@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/files/fields_file.hpp"
 #include "engine/run/stored/stored_run.hpp"
 
@@ -154,7 +155,7 @@ RingFields rings_of(const MeanFields& fields) {
           &vy = fields.of("velocity_y");
     for (std::size_t k = 0; k < fields.volume.size(); ++k) {
         const auto place = middle_of(fields, k);
-        const double r = std::hypot(place[0], place[1]);
+        const double r = math::hypot(place[0], place[1]);
         const std::size_t height = k / (x.size() * fields.middles[1].size());
         const std::size_t ring = height * across + std::min(across - 1, static_cast<std::size_t>(r / width));
         room.add(ring, 1, fields.volume[k]);

@@ -131,7 +131,7 @@ TEST(Keys, ExamplesAreInsideTheirBounds) {
 }
 
 TEST(Keys, DocsTellTheBoundsOfQuantities) {
-    const std::string text = load(page);
+    const std::string text = load(GRAINREEL_SOURCE "/docs/reference/scene_basics.md");
     for (int d = 0; d < static_cast<int>(Dimension::number); ++d) {
         const DimensionText& size = text_of(static_cast<Dimension>(d));
         const std::string row = fmt::format(

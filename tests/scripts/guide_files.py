@@ -149,6 +149,20 @@ def lammps_local(folder, frames):
                 "%d %d 1e-3\n" % (a["id"], b["id"]) for a, b in touching))
 
 
+def ellipsoids(file, frames):
+    """A dump of grains twice as long as wide, whose columns of quaternion and axes have the names of their computes."""
+    axes = "c_q[1] c_q[2] c_q[3] c_q[4] c_s[1] c_s[2] c_s[3]"
+    with open(file, "w") as dump:
+        for time, rows in frames:
+            low, high = box_of(frames)
+            dump.write("ITEM: TIMESTEP\n%d\nITEM: NUMBER OF ATOMS\n%d\nITEM: BOX BOUNDS ff ff ff\n" %
+                       (step_of(time), len(rows)) + "".join("%.9g %.9g\n" % edge for edge in zip(low, high)))
+            dump.write(f"ITEM: ATOMS id type x y z {axes}\n" + "".join(
+                "%d %d %.9g %.9g %.9g 0 0.6 0 0.8 %.9g %.9g %.9g\n" % tuple(
+                    [row[n] for n in ("id", "type", "x", "y", "z")] + [row["radius"] * long for long in (2, 1, 1)])
+                for row in rows))
+
+
 def mercury(folder, name, frames):
     low, high = box_of(frames)
     with open(folder / f"{name}.data", "w") as data, open(folder / f"{name}.fstat", "w") as contacts:

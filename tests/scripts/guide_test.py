@@ -198,6 +198,7 @@ def make_files(program, folder, scene):
     frames = guide_files.read_frames(folder / "frames.csv")
     guide_files.liggghts(folder / "post", frames)
     guide_files.lammps_local(folder, frames)
+    guide_files.ellipsoids(folder / "ellipsoids.dump", frames)
     guide_files.pair_table(folder / "pairs.csv", frames)
     guide_files.mercury(folder, "Chute", frames)
     guide_files.yade(folder, frames)

@@ -168,7 +168,7 @@ TEST(SeedSummaries, AStudyInWhichNothingCameUpSaysSo) {
     EXPECT_TRUE(charts.drawn);
     EXPECT_TRUE(charts.stems.empty());
     EXPECT_THAT(study_page(made.study, made.members, made.results, {made.folder.path()}, {}),
-                HasSubstr("it came up in no member"));
+                HasSubstr("in no member"));
 }
 
 // The chart is drawn by gnuplot without a word.

@@ -105,8 +105,7 @@ double GrainMeaning::mass_in(const RawTable& table, std::size_t row, double radi
 void GrainMeaning::add_shape(const RawTable& table, std::size_t row, const std::string& place,
                              State& state) const {
     const GrainShape shape = shapes_.shape(table, row, place_unit_);
-    const double radius = is_possible(shape) ? radius_by_volume(shape) : 0;
-    if (!(radius > 0 && radius <= kLargestRadius))
+    if (!is_possible(shape) || shape.half.maxCoeff() > kLargestRadius)
         throw UserError(
             fmt::format("{}: the grain in row {} has the half lengths {:g}, {:g}, {:g} m and the powers {:g} "
                         "and {:g}, which no "
@@ -116,7 +115,7 @@ void GrainMeaning::add_shape(const RawTable& table, std::size_t row, const std::
                         place, row + 1, shape.half.x(), shape.half.y(), shape.half.z(), shape.along,
                         shape.around, kMostBlockiness));
     state.shape.push_back(shape);
-    state.radius.push_back(radius);
+    state.radius.push_back(radius_by_volume(shape));
 }
 
 void GrainMeaning::add_grain(const RawFrame& raw, std::size_t row, const std::string& place, State& state,

@@ -338,7 +338,7 @@ TEST_F(CompareProgram, AllEndWithTheShortest) {
     write("long.toml", "g_level = 2", "0.3 s");
     const Ended ended = program({"compare", "long.toml", "weak.toml", "--out", "both"});
     ASSERT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("all are run and shown for 0.2 s"));
+    EXPECT_THAT(ended.err, tells({"all are run", "0.2 s"}));
     EXPECT_EQ(decoded_pictures(here / "both/movie.mp4"), frames_of_film);
     EXPECT_NEAR(record_of(here / "both/long")["engine"]["simulated_s"].get<double>(), 0.2, 1e-4);
 }
