@@ -76,7 +76,7 @@ TEST(Bounds, APlaneInAnotherPlane) {
                 refused("\"ramp\""));
     EXPECT_THAT(with_plane(box_text, "point = [1, 1, 0]\nnormal = [0, 0, 1]"), refused("floor"));
     EXPECT_THAT(with_plane(with(wedge_text, "depth =", "top = \"lid\"\ndepth ="),
-                           "point = [0, 0, 0.18]\nnormal = [0, 0, -1]"),
+                           "point = [0, 0, 0.18]\nnormal = [0, 0, -1]\nmoves = true"),
                 refused("lid"));
     EXPECT_THAT(with_plane(wedge_text, "point = [0, 0, 0]\nnormal = [0, 0, 1]\nmoves = true"),
                 refused("floor"));
