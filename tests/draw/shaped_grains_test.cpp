@@ -60,7 +60,11 @@ double level(const Vec3& point, const State& state, std::size_t grain) {
 bool meets(const Sight& sight, const State& state, double x, double y) {
     const double u = sight.slope_x(static_cast<float>(x)), v = sight.slope_y(static_cast<float>(y));
     const double reach = state.shape[0].half.norm(), middle = state.position[0].z();
-    constexpr int kSteps = 600;
+    // Most lines miss the ball around the grain.
+    const Vec3 &centre = state.position[0], ahead(u, v, 1);
+    if (!sight.orthographic && centre.cross(ahead).norm() > reach * ahead.norm()) return false;
+    if (sight.orthographic && std::hypot(u - centre.x(), v - centre.y()) > reach) return false;
+    constexpr int kSteps = 300;
     for (int k = 0; k <= kSteps; ++k) {
         const double z = middle - reach + 2 * reach * k / kSteps;
         if (level(sight.orthographic ? Vec3(u, v, z) : Vec3(u * z, v * z, z), state, 0) <= 1) return true;
@@ -81,14 +85,14 @@ TEST(ShapedGrains, AreSeenWhereRaysMeetThem) {
             const Spheres spheres = drawn_as(state);
             visibility.update(sight, {}, spheres.drawn(), team);
             int wrong = 0, seen = 0;
-            for (int y = 0; y < kHeight; ++y)
-                for (int x = 0; x < kWidth; ++x) {
+            for (int y = 0; y < kHeight; y += 2)
+                for (int x = 0; x < kWidth; x += 2) {
                     const bool there = meets(sight, state, x + 0.5, y + 0.5);
                     wrong += there != (visibility.row(y)[x] == 1);
                     seen += there;
                 }
-            EXPECT_GT(seen, 500);
-            EXPECT_LE(wrong, 6) << shape.half.transpose() << ", " << shape.along << ", " << shape.around;
+            EXPECT_GT(seen, 125);
+            EXPECT_LE(wrong, 2) << shape.half.transpose() << ", " << shape.along << ", " << shape.around;
         }
 }
 

@@ -3,7 +3,6 @@
 #include "render/picture/whole/renderer.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -20,31 +19,13 @@
 #include "render/picture/marks/marks.hpp"
 #include "render/picture/mesh/scene_meshes.hpp"
 #include "render/picture/spheres/layer.hpp"
+#include "render/picture/whole/draw_stopwatch.hpp"
 #include "render/picture/whole/layers.hpp"
 #include "render/picture/words/overlay.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
-
-// Adds up the times of the stages of a frame. It does nothing where `times` is null.
-class DrawStopwatch {
-  public:
-    DrawStopwatch(const gl::Functions& gl, DrawTimes* times) : gl_(gl), times_(times) {}
-    // The time since the last call, or since the watch was made, belongs to `stage`.
-    void lap(double DrawTimes::*stage) {
-        if (!times_) return;
-        gl_.Finish();
-        const auto now = std::chrono::steady_clock::now();
-        times_->*stage += std::chrono::duration<double, std::milli>(now - last_).count();
-        last_ = now;
-    }
-
-  private:
-    const gl::Functions& gl_;
-    DrawTimes* times_;
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 std::uint32_t background(const Colour& colour, bool transparent) {
     const auto byte = [](double value) { return static_cast<std::uint32_t>(std::lround(255 * value)); };
