@@ -2,7 +2,6 @@
 #include "render/picture/words/captions.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +61,8 @@ std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravi
     return lines;
 }
 
-// The lines of the drive in one: "f = 15 Hz", "Γ = 4", "a = 4.4 mm" become "15 Hz, Γ = 4".
+// The lines of the drive in one: "f = 15 Hz", "Γ = 4", "a = 4.4 mm" become "15 Hz, Γ = 4". How often taps come
+// has a line of its own.
 std::string in_short(const std::vector<std::string>& lines, ShakingParts parts, bool has_level) {
     std::vector<std::string> words;
     for (const std::string& line : lines) {
@@ -71,7 +71,11 @@ std::string in_short(const std::vector<std::string>& lines, ShakingParts parts, 
         if (!level && !amplitude && !parts.frequency) continue;
         words.push_back(line.starts_with("f = ") ? line.substr(4) : line);
     }
-    return fmt::format("{}", fmt::join(words, ", "));
+    constexpr std::size_t in_a_line = 2;
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i < in_a_line ? ", " : "\n") + words[i];
+    return text;
 }
 
 }  // namespace
@@ -88,22 +92,34 @@ bool drive_lines_change(const Drive& drive) {
     return drive.present && (drive.changes() || drive.ramp > 0);
 }
 
-std::vector<std::string> longest_drive_lines(const FilmedScene& scene) {
+namespace {
+
+// The lines of the drive at all moments at which one of them may be longest.
+std::vector<std::vector<std::string>> long_drive_lines(const FilmedScene& scene) {
     const double gravity = scene.gravity.norm();
-    std::vector<std::string> longest = vibration_lines(scene.drive.frequency, scene.drive.amplitude, gravity);
-    const auto take = [&](const std::vector<std::string>& lines) {
-        for (std::size_t i = 0; i < std::min(lines.size(), longest.size()); ++i)
-            if (lines[i].size() > longest[i].size()) longest[i] = lines[i];
-    };
+    std::vector<std::vector<std::string>> moments = {
+        vibration_lines(scene.drive.frequency, scene.drive.amplitude, gravity)};
     // At these shares of the full drive the numbers are longest.
     if (scene.drive.ramp > 0)
-        for (const double share : {0.888, 0.0888}) take(growing_lines(scene, share));
-    if (!scene.drive.changes()) return longest;
+        for (const double share : {0.888, 0.0888}) moments.push_back(growing_lines(scene, share));
+    if (!scene.drive.changes()) return moments;
     const DriveSchedule schedule(scene.drive);
     for (const PeriodStretch& stretch : schedule.times().stretches())
-        take(stage_lines(schedule.now(stretch.cycles), gravity, scene.film.wording));
+        moments.push_back(stage_lines(schedule.now(stretch.cycles), gravity, scene.film.wording));
     // While a stage changes into another, numbers have three digits.
-    take({"f = 88.8 Hz", "Γ = 88.8", "a = 88.8 mm"});
+    moments.push_back({"f = 88.8 Hz", "Γ = 88.8", "a = 88.8 mm"});
+    return moments;
+}
+
+}  // namespace
+
+std::vector<std::string> longest_drive_lines(const FilmedScene& scene) {
+    std::vector<std::string> longest;
+    for (const std::vector<std::string>& lines : long_drive_lines(scene)) {
+        if (longest.empty()) longest = lines;
+        for (std::size_t i = 0; i < std::min(lines.size(), longest.size()); ++i)
+            if (lines[i].size() > longest[i].size()) longest[i] = lines[i];
+    }
     return longest;
 }
 
@@ -112,7 +128,12 @@ std::string shaking_text(const FilmedScene& scene, const State& frame, ShakingPa
 }
 
 std::string longest_shaking_text(const FilmedScene& scene, ShakingParts parts) {
-    return in_short(longest_drive_lines(scene), parts, scene.gravity.norm() > 0);
+    std::string longest;
+    for (const std::vector<std::string>& lines : long_drive_lines(scene)) {
+        const std::string words = in_short(lines, parts, scene.gravity.norm() > 0);
+        if (words.size() > longest.size()) longest = words;
+    }
+    return longest;
 }
 
 std::string shown_title(const Film& film) {
