@@ -108,6 +108,7 @@ std::vector<std::vector<std::string>> long_drive_lines(const FilmedScene& scene)
         moments.push_back(stage_lines(schedule.now(stretch.cycles), gravity, scene.film.wording));
     // While a stage changes into another, numbers have three digits.
     moments.push_back({"f = 88.8 Hz", "Γ = 88.8", "a = 88.8 mm"});
+    if (!(gravity > 0)) moments.back().erase(moments.back().begin() + 1);
     return moments;
 }
 
