@@ -140,8 +140,7 @@ TextSize shaking_block(const Writer& writer, const FilmedScene& scene, const std
     writer.write_below(words, x + indent, y, scene.film.wording(word_of_shaking(scene.drive)), writer.main(),
                        writer.palette.ink);
     if (!numbers.empty())
-        for (const std::string& line : lines_of(numbers))
-            writer.write_below(words, x + indent, y, line, writer.minor(), writer.palette.ink);
+        writer.write_below(words, x + indent, y, numbers, writer.minor(), writer.palette.ink);
     const TextSize size{indent + words.width, std::max(words.height, 2.2 * writer.type.main)};
     if (writer.on)
         draw_direction(writer, scene.drive.direction, view, x + 0.75 * writer.type.main,

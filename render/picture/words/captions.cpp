@@ -2,6 +2,7 @@
 #include "render/picture/words/captions.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,21 +62,17 @@ std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravi
     return lines;
 }
 
-// The lines of the drive in one: "f = 15 Hz", "Γ = 4", "a = 4.4 mm" become "15 Hz, Γ = 4". How often taps come
-// has a line of its own.
+// The lines of the drive in one: "f = 15 Hz", "Γ = 4", "a = 4.4 mm" become "15 Hz, Γ = 4". With gravity the
+// third line, amplitude or how often taps come, is left out.
 std::string in_short(const std::vector<std::string>& lines, ShakingParts parts, bool has_level) {
     std::vector<std::string> words;
     for (const std::string& line : lines) {
-        const bool level = line.starts_with("Γ = "), amplitude = line.starts_with("a = ");
-        if ((level && !parts.g_level) || (amplitude && has_level)) continue;
-        if (!level && !amplitude && !parts.frequency) continue;
+        const bool level = line.starts_with("Γ = "), third = has_level && &line - lines.data() == 2;
+        if ((level && !parts.g_level) || third) continue;
+        if (!level && !line.starts_with("a = ") && !parts.frequency) continue;
         words.push_back(line.starts_with("f = ") ? line.substr(4) : line);
     }
-    constexpr std::size_t in_a_line = 2;
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        text += (i == 0 ? "" : i < in_a_line ? ", " : "\n") + words[i];
-    return text;
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 }  // namespace
