@@ -72,6 +72,17 @@ TEST(DriveWords, GrowWithTheDriveAtFirst) {
     EXPECT_FALSE(drive_lines_change(scene.drive));
 }
 
+// The numbers of taps are longer than those of a vibration.
+TEST(DriveWords, ShortOnesHaveRoomForTaps) {
+    const FilmedScene scene = changing();
+    State frame;
+    frame.time = 3.3;
+    frame.cycles = DriveSchedule(scene.drive).times().cycles(frame.time);
+    EXPECT_EQ(shaking_text(scene, frame), "taps of 30 Hz, Γ = 4");
+    EXPECT_EQ(longest_shaking_text(scene), shaking_text(scene, frame));
+    EXPECT_EQ(longest_shaking_text(scene, {true, false}), "taps of 30 Hz");
+}
+
 TEST(CaptionWords, AreThereInTheirTime) {
     FilmedScene scene = wedge();
     scene.film.captions = {{1, 2, "one", 0}, {2, 3, "two", 0}};

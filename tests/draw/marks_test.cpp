@@ -478,5 +478,30 @@ TEST(TrailsOfGrains, AreThePositionsOfTheLastFrames) {
     EXPECT_EQ(trails.paths()[0].size(), 1u);
 }
 
+// A grain that rises steadily and is shaken has a trail that rises steadily, but for its two ends.
+TEST(TrailsOfGrains, AreWithoutTheShaking) {
+    FilmedScene scene = wedge();
+    scene.drive.present = true;
+    scene.drive.frequency = 10;
+    const auto highest_step_back = [&](double duration) {
+        scene.film.shows.trails = {{}, {1}, duration};
+        Trails trails(scene);
+        for (int k = 0; k <= 80; ++k) {
+            const double time = 0.0125 * k;  // eight frames a period
+            Shot frame = frame_of({{{0, 0, 0}}, {{0, 0, 0.01 * time + 0.004 * std::sin(20 * M_PI * time)}}});
+            frame.time = time;
+            trails.take(frame);
+        }
+        const auto path = trails.paths().at(0);
+        EXPECT_EQ(path.front().at.z(), 0.01 + 0.004 * std::sin(20 * M_PI));
+        double most = 0;
+        for (std::size_t k = 9; k + 9 < path.size(); ++k)  // more than a period from the ends
+            most = std::max(most, path[k].at.z() - path[k - 1].at.z());
+        return most;
+    };
+    EXPECT_LT(highest_step_back(0.8), 0.0001);
+    EXPECT_GT(highest_step_back(0.35), 0.001);  // too short a trail to leave the shaking out
+}
+
 }  // namespace
 }  // namespace grainreel::test

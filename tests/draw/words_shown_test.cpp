@@ -144,6 +144,30 @@ TEST(WordsShown, DigitsAreElevenPixelsHighFrom480Lines) {
     EXPECT_EQ(type_scale(wedge(64, 64).film).minor, 10);
 }
 
+TEST(WordsShown, AColumnHasRoomForTheNumberInTheTray) {
+    FilmedScene scene = wedge();
+    scene.container.tray.emplace();
+    scene.film.word_kinds.counts = true;
+    set_species(scene, {});
+    add_species(scene, {"sand", 99999999, 0.004, blue});
+    const Palette palette = make_palette(scene.film.background);
+    const TypeScale type = type_scale(scene.film, 1);
+    const Writer measure{nullptr, type, palette};
+    const double words = measure.write(0, 0, "99999999 of 99999999 in the tray", measure.minor(), {}).width;
+    EXPECT_GE(plan_numbers(measure, scene, 1e9, 400, false).width, words);
+}
+
+TEST(WordsShown, ALegendThatIsTooWideBreaksItsLines) {
+    FilmedScene scene = wedge();
+    const Palette palette = make_palette(scene.film.background);
+    const TypeScale type = type_scale(scene.film, 1);
+    const Writer measure{nullptr, type, palette};
+    const TextSize wide = legend_block(measure, scene, 0, 0, 0),
+                   narrow = legend_block(measure, scene, 0, 0, 0.8 * wide.width);
+    EXPECT_LE(narrow.width, 0.8 * wide.width);
+    EXPECT_GT(narrow.height, wide.height);
+}
+
 TEST(WordsShown, AnEmptyTitleIsNone) {
     FilmedScene scene = wedge();
     EXPECT_THAT(names_of(scene), testing::Contains("title"));

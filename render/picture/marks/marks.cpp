@@ -18,10 +18,43 @@
 
 namespace grainreel {
 
+namespace {
+
+// A trail is as smooth as the mean over this many periods around each of its points: the bed's own, or one.
+// Trails of fewer than four such times, and those without a drive, show the motion as it was.
+double smoothing_time(const FilmedScene& scene) {
+    if (!scene.drive.present) return 0;
+    const double time = std::max(1, scene.film.periods) / scene.drive.frequency;
+    return scene.film.shows.trails.duration >= 4 * time ? time : 0;
+}
+
+// Replaces each place by the mean of those that are at most `reach` older or younger. Towards both ends the
+// reach goes to zero, so that the trail still ends at its grain.
+void smooth(std::vector<Trails::Point>& path, double reach) {
+    const std::vector<Trails::Point> raw = path;
+    for (std::size_t i = 1; i + 1 < raw.size(); ++i) {
+        const double within =
+            std::min({reach, raw[i].age - raw.front().age, raw.back().age - raw[i].age}) * (1 + 1e-9);
+        Vec3 sum = raw[i].at;
+        double count = 1;
+        const auto add = [&](std::size_t k) {
+            if (std::abs(raw[k].age - raw[i].age) > within) return false;
+            sum += raw[k].at, ++count;
+            return true;
+        };
+        for (std::size_t k = i; k-- > 0 && add(k);) {}
+        for (std::size_t k = i + 1; k < raw.size() && add(k); ++k) {}
+        path[i].at = sum / count;
+    }
+}
+
+}  // namespace
+
 Trails::Trails(const FilmedScene& scene)
     : species_(scene.species.size(), false),
       grains_(scene.film.shows.trails.grains),
       duration_(scene.film.shows.trails.duration),
+      smoothing_(smoothing_time(scene)),
       longest_jump_(scene.container.periodic_depth ? 0.5 * scene.container.depth
                                                    : std::numeric_limits<double>::infinity()) {
     for (const std::size_t species : scene.film.shows.trails.species) species_[species] = true;
@@ -58,6 +91,7 @@ std::vector<std::vector<Trails::Point>> Trails::paths() const {
             if (!path.empty() && std::abs(at.x() - path.back().at.x()) > longest_jump_) break;
             path.push_back({(now.time - moment.time) / duration_, at});
         }
+        if (smoothing_ > 0) smooth(path, smoothing_ / duration_);
         paths.push_back(std::move(path));
     }
     return paths;

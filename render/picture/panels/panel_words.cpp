@@ -112,7 +112,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
         film.width = whole.width, film.height = whole.height;
         blocks.push_back(captions_block(measure, film, width));
     }
-    blocks.push_back({clock_block(measure, scene, widest_frame(), 0, 0), true,
+    blocks.push_back({widest_clock(measure, scene), true,
                       [scene](const Writer& on, double x, double y, const Shot& frame, const std::string&) {
                           clock_block(on, scene, frame, x, y);
                       }});

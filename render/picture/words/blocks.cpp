@@ -11,6 +11,7 @@
 #include "engine/scene/drive_schedule.hpp"
 #include "render/picture/container/drawing_kit.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -279,6 +280,18 @@ TextSize clock_block(const Writer& writer, const FilmedScene& scene, const State
         writer.write_below(size, x, y, line, time ? writer.strong() : writer.minor(),
                            time ? writer.palette.ink : writer.palette.faint_ink);
     }
+    return size;
+}
+
+TextSize widest_clock(const Writer& measure, const FilmedScene& scene) {
+    TextSize size = clock_block(measure, scene, widest_frame(), 0, 0);
+    if (!scene.container.tray || !scene.film.word_kinds.counts) return size;
+    std::int64_t grains = 0;
+    for (const Species& species : scene.species) grains += species.all();
+    const std::string all = std::to_string(grains);
+    const double counts =
+        measure.write(0, 0, scene.film.wording(Word::in_the_tray, {all, all}), measure.minor(), {}).width;
+    size.width = std::max(size.width, counts);
     return size;
 }
 

@@ -100,6 +100,8 @@ TextSize note_block(const Writer& writer, const std::string& text, double x, dou
 std::string clock_words(const FilmedScene& scene, const State& frame);
 // The time and, with a drive, the cycle; with a tray also how many grains lie in it.
 TextSize clock_block(const Writer& writer, const FilmedScene& scene, const State& frame, double x, double y);
+// The size of the clock with the longest words that it gets.
+TextSize widest_clock(const Writer& measure, const FilmedScene& scene);
 
 // The words in the first gutter. They say what is seen and how large it is.
 struct FirstPart {

@@ -62,13 +62,14 @@ std::vector<std::string> stage_lines(const DriveSchedule::Now& now, double gravi
     return lines;
 }
 
-// The lines of the drive in one: "f = 15 Hz", "Γ = 4", "a = 4.4 mm" become "15 Hz, Γ = 4".
+// The lines of the drive in one: "f = 15 Hz", "Γ = 4", "a = 4.4 mm" become "15 Hz, Γ = 4". With gravity the
+// third line, amplitude or how often taps come, is left out.
 std::string in_short(const std::vector<std::string>& lines, ShakingParts parts, bool has_level) {
     std::vector<std::string> words;
     for (const std::string& line : lines) {
-        const bool level = line.starts_with("Γ = "), amplitude = line.starts_with("a = ");
-        if ((level && !parts.g_level) || (amplitude && has_level)) continue;
-        if (!level && !amplitude && !parts.frequency) continue;
+        const bool level = line.starts_with("Γ = "), third = has_level && &line - lines.data() == 2;
+        if ((level && !parts.g_level) || third) continue;
+        if (!level && !line.starts_with("a = ") && !parts.frequency) continue;
         words.push_back(line.starts_with("f = ") ? line.substr(4) : line);
     }
     return fmt::format("{}", fmt::join(words, ", "));
@@ -88,22 +89,35 @@ bool drive_lines_change(const Drive& drive) {
     return drive.present && (drive.changes() || drive.ramp > 0);
 }
 
-std::vector<std::string> longest_drive_lines(const FilmedScene& scene) {
+namespace {
+
+// The lines of the drive at all moments at which one of them may be longest.
+std::vector<std::vector<std::string>> long_drive_lines(const FilmedScene& scene) {
     const double gravity = scene.gravity.norm();
-    std::vector<std::string> longest = vibration_lines(scene.drive.frequency, scene.drive.amplitude, gravity);
-    const auto take = [&](const std::vector<std::string>& lines) {
-        for (std::size_t i = 0; i < std::min(lines.size(), longest.size()); ++i)
-            if (lines[i].size() > longest[i].size()) longest[i] = lines[i];
-    };
+    std::vector<std::vector<std::string>> moments = {
+        vibration_lines(scene.drive.frequency, scene.drive.amplitude, gravity)};
     // At these shares of the full drive the numbers are longest.
     if (scene.drive.ramp > 0)
-        for (const double share : {0.888, 0.0888}) take(growing_lines(scene, share));
-    if (!scene.drive.changes()) return longest;
+        for (const double share : {0.888, 0.0888}) moments.push_back(growing_lines(scene, share));
+    if (!scene.drive.changes()) return moments;
     const DriveSchedule schedule(scene.drive);
     for (const PeriodStretch& stretch : schedule.times().stretches())
-        take(stage_lines(schedule.now(stretch.cycles), gravity, scene.film.wording));
+        moments.push_back(stage_lines(schedule.now(stretch.cycles), gravity, scene.film.wording));
     // While a stage changes into another, numbers have three digits.
-    take({"f = 88.8 Hz", "Γ = 88.8", "a = 88.8 mm"});
+    moments.push_back({"f = 88.8 Hz", "Γ = 88.8", "a = 88.8 mm"});
+    if (!(gravity > 0)) moments.back().erase(moments.back().begin() + 1);
+    return moments;
+}
+
+}  // namespace
+
+std::vector<std::string> longest_drive_lines(const FilmedScene& scene) {
+    std::vector<std::string> longest;
+    for (const std::vector<std::string>& lines : long_drive_lines(scene)) {
+        if (longest.empty()) longest = lines;
+        for (std::size_t i = 0; i < std::min(lines.size(), longest.size()); ++i)
+            if (lines[i].size() > longest[i].size()) longest[i] = lines[i];
+    }
     return longest;
 }
 
@@ -112,7 +126,12 @@ std::string shaking_text(const FilmedScene& scene, const State& frame, ShakingPa
 }
 
 std::string longest_shaking_text(const FilmedScene& scene, ShakingParts parts) {
-    return in_short(longest_drive_lines(scene), parts, scene.gravity.norm() > 0);
+    std::string longest;
+    for (const std::vector<std::string>& lines : long_drive_lines(scene)) {
+        const std::string words = in_short(lines, parts, scene.gravity.norm() > 0);
+        if (words.size() > longest.size()) longest = words;
+    }
+    return longest;
 }
 
 std::string shown_title(const Film& film) {

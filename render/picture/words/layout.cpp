@@ -189,7 +189,8 @@ PictureLayout one_column(const FilmedScene& scene, PictureLayout layout, const W
     const FirstPart part = first_part(measure, scene, nullptr, layout, left);
     const NumbersPlan numbers = plan_numbers(measure, scene, left, height, false, true);
     const double most = height - (numbers.empty ? 0 : numbers.height);
-    const int top = part.empty() ? 0 : whole(std::min(most, part.height + margin));
+    // Where no height is left, all words of the first gutter are left out.
+    const int top = part.empty() ? 0 : std::max(1, whole(std::min(most, part.height + margin)));
     layout.first = top > 0 ? Rectangle{0, 0, left, numbers.empty ? height : top} : Rectangle();
     layout.second = numbers.empty ? Rectangle() : Rectangle{0, top, left, height - top};
     layout.port = {left, 0, width - left, height};

@@ -131,7 +131,9 @@ class Entries {
         const double text_wrap = wrap > 0 ? std::max(1.0, wrap - indent) : 0;
         TextSize size;
         const auto line = [&](const std::string& text, const TextStyle& style, const Colour& colour) {
-            const TextSize part = writer_.write(x + indent, y + size.height, text, style, colour, text_wrap);
+            constexpr int most_lines = 2;
+            const TextSize part =
+                writer_.write(x + indent, y + size.height, text, style, colour, text_wrap, most_lines);
             size.width = std::max(size.width, indent + part.width);
             size.height += part.height;
         };

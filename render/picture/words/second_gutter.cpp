@@ -6,7 +6,6 @@
 
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -44,7 +43,7 @@ class Planner {
           x_(stacked || at_left ? measure.type.margin : 0.5 * measure.type.margin),
           inner_(std::max(1.0, width - (stacked ? 2.0 : 1.5) * measure.type.margin)),
           line_(measure.write(0, 0, "0", measure.minor(), {}).height),
-          clock_(clock_block(measure, scene, widest_frame(), 0, 0)) {
+          clock_(widest_clock(measure, scene)) {
         plan_.has_arrows = wanted.arrows && scene.drive.present && kinds_.arrows;
         plan_.has_dial = wanted.dial && scene.drive.present && kinds_.dial;
         plan_.radius = std::min(2.2 * type_.main, stacked ? 0.14 * inner_ : 1e9);
