@@ -41,10 +41,13 @@ std::size_t first_with(const std::vector<double>& gone, double mass) {
     return static_cast<std::size_t>(std::lower_bound(gone.begin(), gone.end(), mass) - gone.begin());
 }
 
+// The half of the interval has two digits, and the rate as many decimals.
 std::string rate_text(const Estimate& rate) {
-    return std::isfinite(rate.half_width)
-               ? fmt::format("{:.4g} ± {:.2g} kg/s", rate.value, rate.half_width)
-               : fmt::format("{:.4g} kg/s (no interval: {})", rate.value, rate.why);
+    if (!std::isfinite(rate.half_width))
+        return fmt::format("{:.4g} kg/s (no interval: {})", rate.value, rate.why);
+    if (!(rate.half_width > 1e-12)) return fmt::format("{:.4g} kg/s", rate.value);
+    const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(rate.half_width))));
+    return fmt::format("{:.{}f} ± {:.{}f} kg/s", rate.value, decimals, rate.half_width, decimals);
 }
 
 }  // namespace
