@@ -205,6 +205,10 @@ double turnover_time(const MeanFields& fields) {
 }
 
 Answer fields_answer(const StoredRun& run, const std::string& grid, const TimeWindow& window) {
+    std::error_code none_there;
+    if (!std::filesystem::exists(run.path() / "fields.nc", none_there))
+        throw UserError(fmt::format("{}: the run kept no fields; they need [output.fields] in its scene",
+                                    (run.path() / "fields.nc").string()));
     const FieldsReader reader(run.path() / "fields.nc");
     const MeanFields mean = mean_of_records(reader, window);
     if (mean.records == 0)
