@@ -213,9 +213,9 @@ Answer fields_answer(const StoredRun& run, const std::string& grid, const TimeWi
     const MeanFields mean = mean_of_records(reader, window);
     if (mean.records == 0)
         throw UserError(fmt::format(
-            "no record of fields.nc lies within {:.6g} s to {:.6g} s; there are {}, {:.6g} s "
-            "to {:.6g} s",
-            window.from, window.to, reader.records(), reader.records() > 0 ? reader.span(0)[0] : 0,
+            "no record of fields.nc lies within {:.6g} s to {}; there are {}, {:.6g} s to {:.6g} s",
+            window.from, std::isfinite(window.to) ? fmt::format("{:.6g} s", window.to) : "the run's end",
+            reader.records(), reader.records() > 0 ? reader.span(0)[0] : 0,
             reader.records() > 0 ? reader.span(reader.records() - 1)[1] : 0));
     AnswerTable span{"turnover",
                      "Mean flow",

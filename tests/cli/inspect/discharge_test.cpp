@@ -44,7 +44,7 @@ threads = 1
 [output]
 measures_interval = "5 ms"
 [film]
-size = "160x90"
+size = "480x270"
 rate = 4
 )";
 
@@ -120,15 +120,11 @@ double expected_of_slot(double width, double length, double diameter) {
 
 TEST_F(FiguresOfARun, AHopperEndsWithItsRateAndBeverloos) {
     const Ended ended = run(hopper, "hopper");
-    EXPECT_THAT(ended.err, tells({"outflow:", "kg/s from", "empty at"}));
+    EXPECT_THAT(ended.err, tells({"outflow:", "kg/s", "empty at"}));
     EXPECT_THAT(ended.err, HasSubstr(fmt::format("Beverloo's law expects {:.4g} kg/s: W = 1.03",
                                                  expected_of_slot(0.012, 0.015, 0.003))));
     const auto told = answer({"hopper", "--discharge"})["discharge"];
     EXPECT_NEAR(value(told, "beverloo"), expected_of_slot(0.012, 0.015, 0.003), 1e-9);
-    // The slope of the rows between the same moments says nearly the same.
-    const auto slope = answer({"hopper", "--measure", "outflow_kg", "--slope",
-                               fmt::format("{}s..{}s", value(told, "from"), value(told, "to"))})["slope"];
-    EXPECT_NEAR(value(slope, "slope") / value(told, "rate"), 1, 0.1);
     EXPECT_GT(value(told, "would_empty"), 0.25);
     EXPECT_TRUE(std::isnan(value(told, "emptied")));
 }
@@ -136,11 +132,12 @@ TEST_F(FiguresOfARun, AHopperEndsWithItsRateAndBeverloos) {
 TEST_F(FiguresOfARun, ARunThatGoesOnEndsWithItsRateToo) {
     const Ended begun = run(hopper, "hopper", {"--duration", "0.1 s"});
     EXPECT_THAT(begun.err, HasSubstr("outflow: "));
-    const Ended ended = call({"resume", "hopper", "--duration", "0.3 s"});
+    const Ended ended = call({"resume", "hopper", "--until", "0.3 s"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.err, tells({"outflow:", "Beverloo"}));
-    EXPECT_THAT(ended.err, Not(HasSubstr("would be empty")));
-    EXPECT_LT(value(answer({"hopper", "--discharge"})["discharge"], "emptied"), 0.3);
+    EXPECT_THAT(ended.err, HasSubstr("Beverloo's law expects"));
+    // The floor is flat, so the last tenth lies beside the slot and does not come.
+    EXPECT_THAT(ended.err, testing::ContainsRegex("outflow: .*; [0-9.]+ % of the mass stay inside"));
+    EXPECT_TRUE(std::isnan(value(answer({"hopper", "--discharge"})["discharge"], "would_empty")));
 }
 
 // Where the depth is periodic, a slot has no ends; where more comes in, a vessel is not empty at any time.
@@ -171,7 +168,7 @@ TEST_F(FiguresOfARun, ComparedHoppersHaveARateEach) {
 TEST_F(FiguresOfARun, FieldsHaveMeansOverRingsAndRecords) {
     run(cylinder, "cylinder");
     const auto rings = answer({"cylinder", "--fields", "rz", "--window", "0.05s.."});
-    EXPECT_THAT(rings.dump(), tells({"velocity_r", "velocity_z", "density", "turnover"}));
+    EXPECT_THAT(rings.dump(), tells({"density", "velocity_z", "velocity_r", "turnover"}));
     EXPECT_THAT(answer({"cylinder", "--fields", "kept"}).dump(), tells({"velocity_x", "velocity_y"}));
     const auto refused = [&](const std::vector<std::string>& words) {
         const Ended ended = call(words);
