@@ -41,10 +41,13 @@ std::size_t first_with(const std::vector<double>& gone, double mass) {
     return static_cast<std::size_t>(std::lower_bound(gone.begin(), gone.end(), mass) - gone.begin());
 }
 
+// The half of the interval has two digits, and the rate as many decimals.
 std::string rate_text(const Estimate& rate) {
-    return std::isfinite(rate.half_width)
-               ? fmt::format("{:.4g} ± {:.2g} kg/s", rate.value, rate.half_width)
-               : fmt::format("{:.4g} kg/s (no interval: {})", rate.value, rate.why);
+    if (!std::isfinite(rate.half_width))
+        return fmt::format("{:.4g} kg/s (no interval: {})", rate.value, rate.why);
+    if (!(rate.half_width > 1e-12)) return fmt::format("{:.4g} kg/s", rate.value);
+    const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(rate.half_width))));
+    return fmt::format("{:.{}f} ± {:.{}f} kg/s", rate.value, decimals, rate.half_width, decimals);
 }
 
 }  // namespace
@@ -108,7 +111,10 @@ std::optional<Discharge> discharge_in(const std::filesystem::path& folder, const
     const auto series = series_in(folder, scene);
     if (!series || series->times.empty()) return std::nullopt;
     const bool more_comes = !scene.feeds.empty();
-    return discharge_of(series->times, series->gone, more_comes ? 0 : total_mass(scene));
+    auto flow = discharge_of(series->times, series->gone, more_comes ? 0 : total_mass(scene));
+    // What lies still beside an outlet does not come at any rate.
+    if (flow && flow->would_empty && *flow->would_empty < scene.run.duration) flow->would_empty.reset();
+    return flow;
 }
 
 std::vector<std::string> discharge_lines(const std::filesystem::path& folder, const Scene& scene) {
@@ -120,6 +126,8 @@ std::vector<std::string> discharge_lines(const std::filesystem::path& folder, co
         line += fmt::format("; empty at {:.4g} s", *flow->emptied);
     else if (flow->would_empty)
         line += fmt::format("; at this rate it would be empty at {:.4g} s", *flow->would_empty);
+    else if (scene.feeds.empty())
+        line += fmt::format("; {:.2g} % of the mass stay inside", 100 * (1 - flow->mass / total_mass(scene)));
     std::vector<std::string> lines{line};
     if (const auto expected = beverloo_rate(scene))
         lines.push_back(fmt::format("Beverloo's law expects {:.4g} kg/s: {}, ρ = {} of the grains' density",

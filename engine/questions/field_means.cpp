@@ -206,13 +206,17 @@ double turnover_time(const MeanFields& fields) {
 }
 
 Answer fields_answer(const StoredRun& run, const std::string& grid, const TimeWindow& window) {
+    std::error_code none_there;
+    if (!std::filesystem::exists(run.path() / "fields.nc", none_there))
+        throw UserError(fmt::format("{}: the run kept no fields; they need [output.fields] in its scene",
+                                    (run.path() / "fields.nc").string()));
     const FieldsReader reader(run.path() / "fields.nc");
     const MeanFields mean = mean_of_records(reader, window);
     if (mean.records == 0)
         throw UserError(fmt::format(
-            "no record of fields.nc lies within {:.6g} s to {:.6g} s; there are {}, {:.6g} s "
-            "to {:.6g} s",
-            window.from, window.to, reader.records(), reader.records() > 0 ? reader.span(0)[0] : 0,
+            "no record of fields.nc lies within {:.6g} s to {}; there are {}, {:.6g} s to {:.6g} s",
+            window.from, std::isfinite(window.to) ? fmt::format("{:.6g} s", window.to) : "the run's end",
+            reader.records(), reader.records() > 0 ? reader.span(0)[0] : 0,
             reader.records() > 0 ? reader.span(reader.records() - 1)[1] : 0));
     AnswerTable span{"turnover",
                      "Mean flow",

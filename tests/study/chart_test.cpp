@@ -112,6 +112,8 @@ TEST(StudyChartLabels, NameKeysAsFilmsDo) {
     EXPECT_EQ(name_in_films("species.nut.density"), "density of nut");
     EXPECT_EQ(name_in_films("contact.friction"), "friction");
     EXPECT_EQ(name_in_films("contact.wall.friction"), "wall friction");
+    EXPECT_EQ(name_in_films("container.outlet.width"), "outlet width");
+    EXPECT_EQ(name_in_films("container.width"), "width");
     EXPECT_EQ(name_in_films("start.packing_seed"), "packing seed");
 }
 

@@ -120,7 +120,10 @@ TEST(StudyParametersTable, TellsWhatDiffersAndWhatDoesNot) {
     EXPECT_THAT(table,
                 testing::AllOf(HasSubstr("\ncontact.pair[0].stiffness,,"), HasSubstr("\ndrive.amplitude,,"),
                                HasSubstr("\nrun.step,"), HasSubstr("\nrun.accuracy,")));
-    EXPECT_THAT(parameters.methods(study), tells({"drive.g_level: 2.5, 4", "first setting", "Walton1986"}));
+    const Methods methods = parameters.methods(study);
+    EXPECT_THAT(methods.paragraph, tells({"Γ: 2.5, 4", "first setting", "Walton1986"}));
+    EXPECT_THAT(methods.bibtex, testing::ContainsRegex("grainreel.*\n.*\n.*\n.*\n  year = .20[0-9][0-9]"));
+    EXPECT_THAT(methods.bibtex, HasSubstr("@article{Walton1986"));
 }
 
 }  // namespace

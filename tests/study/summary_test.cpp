@@ -91,6 +91,7 @@ TEST(SeedSummaries, AShareHasWilsonsInterval) {
     EXPECT_EQ(all.high, 1);
     const SeedSummary half = summary_of(SeedAverage::share, {{1, nan}, {0, nan}});
     EXPECT_NEAR(0.5 - half.low, half.high - 0.5, 1e-12);
+    EXPECT_TRUE(half.values.empty()) << "no ring at 0 and at 1";
 }
 
 TEST(SeedSummaries, AShareIsOneWhereTheThresholdIsReached) {
@@ -146,6 +147,7 @@ TEST(SeedSummaries, AreToldInTablesChartAndPage) {
     const std::string commands = chart_commands(made.study, made.study.charts[0], series, false);
     EXPECT_THAT(commands, tells({"%d of %d", "with labels"}));
     EXPECT_THAT(commands, HasSubstr("not in all seeds"));
+    EXPECT_THAT(commands, HasSubstr("set offsets graph 0.1, graph 0.1")) << "room for the counts";
     EXPECT_THAT(setting_table(made.study, made.members, made.results),
                 testing::StartsWith("drive.g_level,members,complete,rise,rise_low,rise_high,rise_came_up,"
                                     "rise_at_least\n2,5,5,,,,1,2.6\n3,5,5,1.7,"));
@@ -203,6 +205,19 @@ TEST(StudyChartKeys, SayLabelsRangesAndLetters) {
     for (const char* words : {"set xlabel 'shaking'", "set ylabel 'time up (s)'", "set xrange [0.5:3]",
                               "set yrange [0:4]", "'Liberation Sans,17.5'"})
         EXPECT_THAT(commands, HasSubstr(words));
+}
+
+// A share goes from 0 to 1, and its label says of what.
+TEST(StudyChartKeys, AShareHasItsOwnLabelAndRange) {
+    const StudyFolderOfTest folder;
+    const Study study = folder.read(with_line(rise_times, "first-passage", "share"));
+    EXPECT_THAT(study.measures[0].label, testing::StartsWith("share of runs that reach 0.3: "));
+    const auto members = make_members(study, [](const FilmedScene&, const Plan&) {});
+    std::vector<MemberResult> results(members.size());
+    for (MemberResult& result : results) result.status = MemberResult::Status::complete, result.values = {1};
+    const auto series = chart_series(study, members, results, study.charts[0]);
+    EXPECT_THAT(chart_commands(study, study.charts[0], series, false), HasSubstr("set yrange [0:1]"));
+    EXPECT_THAT(folder.read(rise_times).measures[0].label, testing::StartsWith("time of first reaching 0.3"));
 }
 
 TEST(StudyChartKeys, AreRefusedByNameWhenWrong) {

@@ -184,7 +184,7 @@ std::string drive_text(const FilmedScene& scene) {
     const Drive& d = scene.drive;
     if (!d.present) return "none";
     const double g = scene.gravity.norm();
-    const std::string level = g > 0 ? fmt::format(", g_level {:.4g}", d.g_level(g)) : "";
+    const std::string level = g > 0 ? fmt::format(", Γ = {:.4g}", d.g_level(g)) : "";
     const std::string along = d.direction == Vec3(0, 0, 1)
                                   ? "up and down"
                                   : fmt::format("along ({:.3g}, {:.3g}, {:.3g})", d.direction.x(),
@@ -196,7 +196,7 @@ std::string drive_text(const FilmedScene& scene) {
                        metres_text(d.amplitude), level, d.speed(), phase, ramp);
 }
 
-// "from 2.01 s over 3 periods: 12 Hz, amplitude 5 mm, g_level 3"
+// "from 2.01 s over 3 periods: 12 Hz, amplitude 5 mm, Γ = 3"
 std::string stage_text(const FilmedScene& scene, const DriveSchedule& schedule, std::size_t number) {
     const DriveStage& stage = scene.drive.stages[number - 1];
     const double begins = schedule.begins(number), settled = schedule.settled(number);
@@ -208,10 +208,10 @@ std::string stage_text(const FilmedScene& scene, const DriveSchedule& schedule, 
                         metres_text(stage.amplitude));
     const double gravity = scene.gravity.norm();
     const Drive of_stage{true, stage.frequency, stage.amplitude};
-    if (gravity > 0) text += fmt::format(", g_level {:.4g}", of_stage.g_level(gravity));
+    if (gravity > 0) text += fmt::format(", Γ = {:.4g}", of_stage.g_level(gravity));
     if (taps) text += fmt::format(", one every {:.4g} s", stage.interval);
     const double peak = peak_acceleration_of_change(schedule, number) / gravity;
-    if (gravity > 0 && peak > 0) text += fmt::format("; at most g_level {:.4g} in the change", peak);
+    if (gravity > 0 && peak > 0) text += fmt::format("; at most Γ = {:.4g} in the change", peak);
     return text;
 }
 

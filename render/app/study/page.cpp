@@ -233,12 +233,14 @@ std::string warnings(const std::vector<MemberResult>& results) {
     return text.empty() ? "" : fmt::format("<h2>Warnings</h2>\n<ul>\n{}</ul>\n", text);
 }
 
-std::string methods_part(const std::string& methods) {
-    if (methods.empty()) return "";
+std::string methods_part(const Methods& methods) {
+    if (methods.paragraph.empty()) return "";
     return fmt::format(
         "<h2>Methods</h2>\n<p>{}</p>\n<p>All parameters of all settings: <a "
-        "href=\"parameters.csv\">parameters.csv</a>.</p>\n",
-        html_text(methods));
+        "href=\"parameters.csv\">parameters.csv</a>. The sources as BibTeX: <a "
+        "href=\"sources.bib\">sources.bib</a>; the paragraph alone: <a "
+        "href=\"methods.txt\">methods.txt</a>.</p>\n",
+        html_text(methods.paragraph));
 }
 
 }  // namespace
@@ -246,7 +248,7 @@ std::string methods_part(const std::string& methods) {
 std::string study_page(const Study& study, const std::vector<Member>& members,
                        const std::vector<MemberResult>& results, const StudyFolder& folder,
                        const std::vector<std::string>& charts, const std::vector<std::string>& notes,
-                       const std::string& methods) {
+                       const Methods& methods) {
     std::string told;
     for (const std::string& note : notes) told += fmt::format("<p>{}.</p>\n", html_text(note));
     return fmt::format(

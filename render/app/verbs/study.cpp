@@ -340,8 +340,11 @@ class StudyVerb final : public Verb {
             reporter.warning(
                 "gnuplot is missing or failed, so there are tables but no charts; install gnuplot-nox "
                 "and give the same command again");
-        replace_file(folder_.path / "index.html", study_page(study, members_, results_, folder_, charts.stems,
-                                                             notes(), parameters_.methods(study)));
+        const Methods methods = parameters_.methods(study);
+        replace_file(folder_.path / "methods.txt", methods.paragraph + "\n");
+        replace_file(folder_.path / "sources.bib", methods.bibtex);
+        replace_file(folder_.path / "index.html",
+                     study_page(study, members_, results_, folder_, charts.stems, notes(), methods));
         if (!paper_.folder) return;
         const auto files = print_charts(study, members_, results_, references, paper_.paper, *paper_.folder);
         reporter.info(fmt::format("wrote {} of charts into {}", counted(files.size(), "file"),

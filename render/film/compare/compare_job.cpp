@@ -7,6 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/questions/discharge.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/film/run/still.hpp"
@@ -195,6 +196,11 @@ void CompareJob::report_written() {
     desk_.listener.info(fmt::format("took {}: {} panels, from {:.6g} to {:.6g} s",
                                     duration_text(desk_.watch.seconds()), all_.members.size(),
                                     all_.pictures.instants.front().time, all_.pictures.instants.back().time));
+    for (const auto& member : all_.members) {
+        if (member->run() == nullptr) continue;
+        for (const std::string& line : discharge_lines(folder() / member->place(), member->scene()))
+            desk_.listener.info(fmt::format("{}: {}", member->place(), line));
+    }
 }
 
 namespace {

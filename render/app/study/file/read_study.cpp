@@ -65,6 +65,23 @@ std::string unit_of(const MeasureColumn& column, Reduction::Kind kind) {
     return of_column == "1" ? "" : of_column;
 }
 
+// What charts and the page call a measure that has no label.
+std::string usual_label(const MeasureColumn& column, const Reduction& how, const std::string& word) {
+    const std::string unit = text_of(column.dimension).unit;
+    const std::string threshold =
+        fmt::format("{:.4g}{}", how.threshold, unit.empty() || unit == "1" ? "" : " " + unit);
+    switch (how.kind) {
+        case Reduction::Kind::share:
+            return fmt::format("share of runs that reach {}: {}", threshold, column.label);
+        case Reduction::Kind::first_passage:
+            return fmt::format("time of first reaching {}: {}", threshold, column.label);
+        case Reduction::Kind::crossing:
+            return fmt::format("time of last passing {}: {}", threshold, column.label);
+        default:
+            return fmt::format("{}, {}", column.label, word);
+    }
+}
+
 // scene: that of the variant that runs longest. All members have its species and so its columns.
 void read_measure(Document& document, const FilmedScene& scene, const std::string& table, Study& study) {
     const std::vector<MeasureColumn> columns = measure_columns(scene);
@@ -80,7 +97,6 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
     for (const auto& [word, kind] : reduction_words)
         if (word == how) measure.reduction.kind = kind;
     measure.name = document.text(table + ".name").value_or(name + "_" + how);
-    measure.label = document.text(table + ".label").value_or(fmt::format("{}, {}", column->label, how));
     if (measure.reduction.kind == Reduction::Kind::share) measure.average = SeedAverage::share;
     if (document.text(table + ".average") == "median") {
         if (measure.average == SeedAverage::share)
@@ -96,6 +112,7 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
                                       excerpt(measure.name)));
     read_window(document, scene, table, measure.reduction);
     read_threshold(document, table, *column, measure.reduction);
+    measure.label = document.text(table + ".label").value_or(usual_label(*column, measure.reduction, how));
     study.measures.push_back(std::move(measure));
 }
 

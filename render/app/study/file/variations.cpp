@@ -257,7 +257,8 @@ std::string name_in_films(const std::string& key) {
     if (table.starts_with("species."))
         return fmt::format("{} of {}", last == "diameter" ? "d" : words,
                            table.substr(std::size("species.") - 1));
-    if (table == "contact.wall") return "wall " + words;
+    for (const char* const prefixed : {"contact.wall", "container.outlet", "container.tray"})
+        if (table == prefixed) return name_of(table) + " " + words;
     return words;
 }
 

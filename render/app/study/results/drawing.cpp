@@ -191,12 +191,16 @@ std::string axes_and_key(const Study& study, const StudyChart& chart, const std:
                         look.lines.keys_a_line,
                         1.1 * static_cast<double>(lines_of_key(
                                   series, has_reference ? chart.reference_label : "", look.lines.key)));
-    text += fmt::format("set offsets graph 0.03, graph 0.03, graph {}, graph 0.05\n",
-                        has_open_points(series) ? 0.12 : 0.05);
+    // Counts stand above open points, and reach to both sides of them.
+    const bool open = has_open_points(series);
+    text += fmt::format("set offsets graph {0}, graph {0}, graph {1}, graph 0.05\n", open ? 0.1 : 0.03,
+                        open ? 0.12 : 0.05);
     if (!axis.numeric) text += word_ticks(axis, look.lines.across);
     if (chart.log_x) text += "set logscale x\n";
     if (chart.log_y) text += "set logscale y\n";
     if (chart.x_range) text += fmt::format("set xrange [{}:{}]\n", (*chart.x_range)[0], (*chart.x_range)[1]);
+    const bool is_share = study.measures[chart.y].average == SeedAverage::share;
+    if (is_share && !chart.y_range) text += "set yrange [0:1]\n";
     if (chart.y_range) text += fmt::format("set yrange [{}:{}]\n", (*chart.y_range)[0], (*chart.y_range)[1]);
     return text;
 }

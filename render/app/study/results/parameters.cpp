@@ -11,7 +11,6 @@
 #include "render/app/check/print_plan.hpp"
 #include "render/app/messages/version.hpp"
 #include "render/app/study/results/results.hpp"
-#include "render/page/facts/methods.hpp"
 
 namespace grainreel {
 
@@ -27,7 +26,8 @@ void StudyParameters::add_setting(const FilmedScene& scene, const Plan& plan) {
     if (settings_.size() > 1) return;
     RunJson record;
     static_cast<ProgramInfo&>(record) = program_info();
-    paragraph_ = grainreel::methods(scene, plan, record, plan_words(scene, plan).lines).paragraph;
+    record.finished = utc_now();  // BibTeX names the year
+    methods_ = grainreel::methods(scene, plan, record, plan_words(scene, plan).lines);
 }
 
 std::string StudyParameters::table() const {
@@ -63,19 +63,22 @@ std::string StudyParameters::table() const {
     return text + "\n";
 }
 
-std::string StudyParameters::methods(const Study& study) const {
+Methods StudyParameters::methods(const Study& study) const {
     std::string varied;
     for (const Variation& variation : study.variations) {
         std::vector<std::string> values;
         for (const Variation::Value& value : variation.values) values.push_back(value.words);
-        varied += fmt::format("{}{}: {}", varied.empty() ? "" : "; ", variation.key, fmt::join(values, ", "));
+        varied +=
+            fmt::format("{}{}: {}", varied.empty() ? "" : "; ", variation.shown, fmt::join(values, ", "));
     }
     if (!study.seeds.empty())
         varied += fmt::format("{}seeds {}", varied.empty() ? "" : "; ", fmt::join(study.seeds, ", "));
-    return fmt::format(
+    Methods all = methods_;
+    all.paragraph = fmt::format(
         "Varied were {}. The numbers below are those of the first setting; parameters.csv has those of "
         "all. {}",
-        varied, paragraph_);
+        varied, methods_.paragraph);
+    return all;
 }
 
 }  // namespace grainreel

@@ -6,6 +6,7 @@
 
 #include "engine/plan/plan.hpp"
 #include "render/app/study/study.hpp"
+#include "render/page/facts/methods.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -20,14 +21,14 @@ class StudyParameters {
     // differ it is empty, and the columns 1, 2, ... have the values of the settings in the order of
     // settings.csv. The first rows name the program, its commit and its compiler.
     std::string table() const;
-    // A paragraph for a paper, of the first setting, and what was varied.
-    std::string methods(const Study& study) const;
+    // A paragraph for a paper, of the first setting, and what was varied; with its sources.
+    Methods methods(const Study& study) const;
 
   private:
     static constexpr std::size_t kMost = 500;  // settings whose values are listed
 
     std::vector<std::vector<std::pair<std::string, std::string>>> settings_;
-    std::string paragraph_;  // of the first setting
+    Methods methods_;  // of the first setting
 };
 
 }  // namespace grainreel

@@ -75,6 +75,7 @@ void take_share(SeedSummary& all) {
     const double half =
         z / (1 + z * z / n) * std::sqrt(all.value * (1 - all.value) / n + z * z / (4 * n * n));
     all.low = std::max(0.0, centre - half), all.high = std::min(1.0, centre + half);
+    all.values.clear();  // each is 0 or 1, and says nothing that the share does not say
 }
 
 }  // namespace

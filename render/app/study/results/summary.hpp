@@ -29,7 +29,7 @@ struct SeedSummary {
     // below the true one. NaN for nothing.
     double of_some = kNone;
     bool is_bound = false;
-    std::vector<double> values;  // of the seeds; those that are not finite are left out
+    std::vector<double> values;  // of the seeds; without those that are not finite, and none of a share
 
     bool came_up_everywhere() const { return count == members; }
     bool is_seen() const { return std::isfinite(value) || std::isfinite(of_some); }  // whether a chart has it
