@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/files/frames/writers/hdf5_sink.hpp"
 #include "engine/files/netcdf/hdf5_handle.hpp"
 
 namespace grainreel {
@@ -39,7 +40,8 @@ Hdf5Tables::Hdf5Tables(const std::filesystem::path& file) : path_(file) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // fault() tells of its faults
     // Tables take much less room in the form of HDF5 1.10 than in the older one.
     const auto access = checked(owned(H5Pcreate(H5P_FILE_ACCESS), H5Pclose));
-    check(H5Pset_libver_bounds(id_of(access), H5F_LIBVER_V110, H5F_LIBVER_LATEST) >= 0);
+    check(H5Pset_libver_bounds(id_of(access), H5F_LIBVER_V110, H5F_LIBVER_LATEST) >= 0 &&
+          write_through_sink(id_of(access), failed_));
     file_ = checked(owned(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, id_of(access)), H5Fclose));
 }
 
@@ -53,7 +55,7 @@ std::shared_ptr<void> Hdf5Tables::checked(std::shared_ptr<void> handle) const {
 }
 
 void Hdf5Tables::check(bool good) const {
-    if (!good) fault();
+    if (!good || failed_) fault();
 }
 
 void Hdf5Tables::add_group(const std::string& path, bool ordered) {
@@ -164,8 +166,9 @@ void Hdf5Tables::add_words(const std::string& path, const std::vector<std::strin
 
 void Hdf5Tables::close() {
     tables_.clear();
-    check(H5Fflush(id_of(file_), H5F_SCOPE_LOCAL) >= 0);
+    const bool good = H5Fflush(id_of(file_), H5F_SCOPE_LOCAL) >= 0;
     file_.reset();
+    check(good);
 }
 
 }  // namespace grainreel

@@ -16,6 +16,8 @@ namespace grainreel {
 class Hdf5Tables {
   public:
     explicit Hdf5Tables(const std::filesystem::path& file);
+    Hdf5Tables(const Hdf5Tables&) = delete;
+    Hdf5Tables& operator=(const Hdf5Tables&) = delete;
 
     // Makes a group. ordered: its members are listed as they were made, not by the alphabet.
     void add_group(const std::string& path, bool ordered = false);
@@ -56,6 +58,7 @@ class Hdf5Tables {
                    const std::shared_ptr<void>& space, const void* value) const;
 
     std::filesystem::path path_;
+    bool failed_ = false;  // whether a write went wrong
     std::shared_ptr<void> file_;
     std::map<std::string, Table> tables_;
 };

@@ -16,8 +16,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "engine/files/frames/state_writer.hpp"
 #include "engine/files/frames/stored_world.hpp"
 #include "engine/files/frames/writers/hdf5_tables.hpp"
@@ -202,8 +200,11 @@ class VtkHdf final : public StateWriter {
         if (!surfaces_.empty()) add_block(walls_, "walls");
         if (supply_.contacts) add_block(contacts_block_, "contacts");
         file_->add_group("/VTKHDF/Assembly", true);
-        for (const std::string& name : blocks_)
-            file_->add_link("/VTKHDF/" + name, "/VTKHDF/Assembly/" + name);
+        for (const std::string& name : blocks_) {
+            const std::string node = "/VTKHDF/Assembly/" + name;  // which gives the block its name
+            file_->add_group(node, true);
+            file_->add_link("/VTKHDF/" + name, node + "/" + name);
+        }
     }
     bool takes_all() const override { return true; }
     void contacts(const std::vector<SavedContact>& contacts) override {
@@ -242,7 +243,7 @@ class VtkHdf final : public StateWriter {
     }
     std::vector<std::string> news() const override {
         if (!left_out_) return {};
-        return {fmt::format("{}: has no fields; export --to vtk writes them", path_.string())};
+        return {"VTKHDF has no place for the run's fields; export --to vtk writes them"};
     }
 
   private:
