@@ -32,8 +32,8 @@ struct FieldOutput {
 // Formats of other programs that a run can write beside its own files ([output] also). The writers are in
 // engine/files/frames/writers, which the scene must not use; a test checks that both lists are the same.
 
-inline constexpr std::array<std::string_view, 10> kAlsoFormats{
-    "netcdf", "lammps-dump", "lammps-data", "xyz", "csv", "vtk", "stl", "gsd", "gltf", "blender"};
+inline constexpr std::array<std::string_view, 11> kAlsoFormats{
+    "netcdf", "lammps-dump", "lammps-data", "xyz", "csv", "vtk", "vtkhdf", "stl", "gsd", "gltf", "blender"};
 
 // A set of these formats, by their places in the list.
 class AlsoFormats {

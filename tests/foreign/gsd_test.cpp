@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 
+#include "engine/files/foreign/foreign_archive.hpp"
 #include "tests/foreign/small_files.hpp"
 #include "tests/support/tells.hpp"
 
@@ -217,6 +218,68 @@ TEST(Gsd, ShapesThatAreNoSpheresAreTold) {
              {R"({"type": "Sphere", "diameter": 2})", R"({"type": "ConvexPolyhedron", "vertices": []})"});
     EXPECT_THAT(news_of(gsd_format(), gsd.bytes()), tells({"no spheres", "ConvexPolyhedron"}));
     EXPECT_EQ(news_of(gsd_format(), bed().bytes()), "");
+}
+
+// Three grains of the types Sphere, Ellipsoid and Sphere.
+GsdBytes ellipsoids() {
+    GsdBytes gsd;
+    gsd.chunk(0, "particles/N", 1, Counts{3});
+    gsd.chunk(0, "particles/position", 3, Floats{1, 2, 3, 4, 5, 6, 7, 8, 9});
+    gsd.chunk(0, "particles/typeid", 1, Counts{0, 1, 0});
+    gsd.text(0, "particles/types", {"ball", "egg"});
+    gsd.text(
+        0, "particles/type_shapes",
+        {R"({"type": "Sphere", "diameter": 0.5})", R"({"type": "Ellipsoid", "a": 1, "b": 1, "c": 2.5})"});
+    return gsd;
+}
+
+TEST(Gsd, EllipsoidsHaveTheirHalfLengths) {
+    const GsdBytes gsd = ellipsoids();
+    const RawTable grains = frame_of(gsd_format(), gsd.bytes()).grains;
+    EXPECT_THAT(column(grains, "type_shapes:a"), ElementsAre(0.25, 1, 0.25));
+    EXPECT_THAT(column(grains, "type_shapes:c"), ElementsAre(0.25, 2.5, 0.25));
+    EXPECT_THAT(column(grains, "orientation:0"), ElementsAre(1, 1, 1));
+    EXPECT_EQ(news_of(gsd_format(), gsd.bytes()), "");
+}
+
+TEST(Gsd, EllipsoidsAreGrainsOfTheirShape) {
+    GsdBytes gsd = ellipsoids();
+    const float half = std::sqrt(0.5F);
+    gsd.chunk(0, "particles/orientation", 4, Floats{1, 0, 0, 0, half, half, 0, 0, 1, 0, 0, 0});
+    gsd.chunk(1, "particles/position", 3, Floats{1, 2, 3, 4, 5, 6, 7, 8, 10});
+    const OneFile file(gsd.bytes());
+    const ForeignArchive archive(file.path(), {});
+    EXPECT_TRUE(archive.supply().shapes);
+    const State state = archive.grains(1);
+    ASSERT_EQ(state.shape.size(), 3U);
+    EXPECT_EQ(state.shape[1].half, Vec3(1, 1, 2.5));
+    EXPECT_EQ(state.shape[1].along, 2);
+    EXPECT_EQ(state.shape[2].half, Vec3(0.25, 0.25, 0.25));
+    EXPECT_NEAR(state.orientation[1].x(), half, 1e-7);
+    EXPECT_NEAR(state.radius[1], std::cbrt(2.5), 1e-12);  // of the sphere of the same volume
+    EXPECT_NEAR(state.radius[0], 0.25, 1e-15);
+}
+
+// A polyhedron is a sphere of its grain's diameter beside ellipsoids. If it has none, all are spheres.
+TEST(Gsd, OtherShapesBesideEllipsoids) {
+    const auto shaped = [](bool diameters) {
+        GsdBytes gsd = bed();
+        if (!diameters) {
+            gsd = GsdBytes();
+            gsd.chunk(0, "particles/N", 1, Counts{2});
+            gsd.chunk(0, "particles/position", 3, Floats{1, 2, 3, 4, 5, 6});
+            gsd.text(0, "particles/types", {"A", "B"});
+        }
+        gsd.text(0, "particles/type_shapes",
+                 {R"({"type": "Ellipsoid", "a": 1, "b": 2, "c": 3})", R"({"type": "ConvexPolyhedron"})"});
+        return gsd.bytes();
+    };
+    EXPECT_TRUE(frame_of(gsd_format(), shaped(true)).grains.find("type_shapes:a"));
+    const std::string news = news_of(gsd_format(), shaped(true));
+    EXPECT_THAT(news, tells({"ConvexPolyhedron", "drawn as spheres"}));
+    EXPECT_THAT(news, testing::Not(HasSubstr("Ellipsoid")));
+    EXPECT_FALSE(frame_of(gsd_format(), shaped(false)).grains.find("type_shapes:a"));
+    EXPECT_THAT(news_of(gsd_format(), shaped(false)), tells({"ConvexPolyhedron, Ellipsoid"}));
 }
 
 TEST(Gsd, WithoutDiametersThereIsNoneUnlessShapesHaveThem) {

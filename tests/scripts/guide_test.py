@@ -88,7 +88,7 @@ def check_table(program, folder):
     for name, _ in writers(program):
         made = run([program, "export", "output/wedge_segregation", "--to", name, "--out", f"table-{name}"], folder)
         check(made.returncode == 0, f"export --to {name}: {made.stderr}")
-        if name in ("gltf", "blender"):
+        if name in ("gltf", "blender", "vtkhdf"):
             back = run([program, "inspect", f"table-{name}"], folder)
             check(back.returncode == 2, f"{name} is read, but the table says that it is not")
         elif name in read:

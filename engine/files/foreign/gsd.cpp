@@ -4,16 +4,17 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/gsd_file.hpp"
+#include "engine/files/foreign/gsd_shapes.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {
@@ -39,28 +40,6 @@ std::string column_name(const std::string& name, std::size_t component, std::siz
     return components == 1 ? name : fmt::format("{}:{}", name, component);
 }
 
-// The name of a shape that is no sphere: "ConvexPolyhedron"; empty for a sphere and where nothing is said.
-std::string other_shape(const std::string& text) {
-    const nlohmann::json shape = nlohmann::json::parse(text, nullptr, false);
-    if (!shape.is_object() || !shape.contains("type") || !shape["type"].is_string()) return {};
-    const std::string name = shape["type"].get<std::string>();
-    if (name != "Ellipsoid") return name == "Sphere" ? std::string() : name;
-    const nlohmann::json a = shape.value("a", nlohmann::json());
-    return a.is_number() && a == shape.value("b", nlohmann::json()) && a == shape.value("c", nlohmann::json())
-               ? std::string()
-               : name;
-}
-
-// The diameter in {"type": "Sphere", "diameter": 2}; NaN for other shapes.
-double diameter_of_shape(const std::string& text) {
-    const nlohmann::json shape = nlohmann::json::parse(text, nullptr, false);
-    if (!shape.is_object() || shape.value("type", nlohmann::json()) != "Sphere")
-        return std::numeric_limits<double>::quiet_NaN();
-    const auto found = shape.find("diameter");
-    if (found == shape.end() || !found->is_number()) return std::numeric_limits<double>::quiet_NaN();
-    return found->get<double>();
-}
-
 class GsdFrames : public RawFile {
   public:
     explicit GsdFrames(const std::filesystem::path& path);
@@ -79,7 +58,8 @@ class GsdFrames : public RawFile {
     void add_columns(RawTable& grains, const std::string& name, std::size_t frame) const;
     void add_log(RawTable& grains, const std::string& name, std::size_t frame) const;
     void name_types(RawTable& grains, std::size_t frame) const;
-    void add_diameters_of_shapes(RawTable& grains, std::size_t frame) const;
+    std::vector<GsdShape> shapes_of(std::size_t frame) const;
+    void add_sizes_of_shapes(RawTable& grains, std::size_t frame) const;
     void check_places(const RawFrame& frame, std::size_t index, std::uint64_t byte) const;
     std::int64_t step_of(std::size_t frame) const;
     void tell_of_shapes(const std::string& name);
@@ -88,6 +68,7 @@ class GsdFrames : public RawFile {
     RawFacts facts_;
     std::vector<RawMoment> moments_;
     std::map<std::string, std::uint32_t> logged_;  // columns of what is logged for each grain, by name
+    bool has_ellipsoids_ = false;                  // whether their half lengths are columns
     std::string time_name_;  // name of the chunk with the time; empty where there is none
     std::vector<std::string> news_;
     mutable std::mutex reading_;
@@ -119,6 +100,7 @@ GsdFrames::GsdFrames(const std::filesystem::path& path) : file_(path) {
         for (std::size_t frame = 0; frame < file_.frames() && name.starts_with(of_logged_particles); ++frame)
             if (const GsdChunk* chunk = file_.find(name, frame); chunk && chunk->columns <= most_columns)
                 logged_.try_emplace(name, chunk->columns);
+    has_ellipsoids_ = draws_ellipsoids(shapes_of(0), file_.has("particles/diameter"));
     tell_of_shapes(path.string());
 }
 
@@ -131,15 +113,23 @@ std::int64_t GsdFrames::step_of(std::size_t frame) const {
     return static_cast<std::int64_t>(step);
 }
 
+std::vector<GsdShape> GsdFrames::shapes_of(std::size_t frame) const {
+    std::vector<GsdShape> shapes;
+    if (const GsdChunk* chunk = chunk_of("particles/type_shapes", frame))
+        for (const std::string& text : file_.texts(*chunk)) shapes.push_back(gsd_shape(text));
+    return shapes;
+}
+
+// Ellipsoids that are drawn as what they are need no line here.
 void GsdFrames::tell_of_shapes(const std::string& name) {
-    const GsdChunk* chunk = chunk_of("particles/type_shapes", 0);
-    if (!chunk) return;
-    std::set<std::string> shapes;
-    for (const std::string& text : file_.texts(*chunk))
-        if (const std::string shape = other_shape(text); !shape.empty()) shapes.insert(shape);
-    if (!shapes.empty())
+    std::set<std::string> others;
+    for (const GsdShape& shape : shapes_of(0))
+        if (!shape.name.empty() && shape.name != "Sphere" && !shape.is_sphere() &&
+            !(has_ellipsoids_ && shape.is_ellipsoid()))
+            others.insert(shape.name);
+    if (!others.empty())
         news_.push_back(fmt::format("{}: has grains that are no spheres ({}); they are drawn as spheres",
-                                    name, fmt::join(shapes, ", ")));
+                                    name, fmt::join(others, ", ")));
 }
 
 const GsdChunk* GsdFrames::chunk_of(const std::string& name, std::size_t frame) const {
@@ -239,24 +229,15 @@ void GsdFrames::name_types(RawTable& grains, std::size_t frame) const {
     }
 }
 
-void GsdFrames::add_diameters_of_shapes(RawTable& grains, std::size_t frame) const {
-    const GsdChunk* chunk = chunk_of("particles/type_shapes", frame);
-    if (!chunk || grains.find("diameter")) return;
-    std::vector<double> of_type;
-    bool any = false;
-    for (const std::string& text : file_.texts(*chunk)) {
-        of_type.push_back(diameter_of_shape(text));
-        any = any || !std::isnan(of_type.back());
+void GsdFrames::add_sizes_of_shapes(RawTable& grains, std::size_t frame) const {
+    const std::vector<GsdShape> shapes = shapes_of(frame);
+    if (has_ellipsoids_) {
+        add_half_lengths(grains, shapes);
+        return;
     }
-    if (!any) return;
-    const RawColumn* types = grains.find("type");
-    RawColumn column{"diameter", {}, {}};
-    for (std::size_t i = 0; i < grains.rows; ++i) {
-        const auto type = static_cast<std::size_t>(types ? types->values[i] : 0.0);
-        column.values.push_back(type < of_type.size() ? of_type[type]
-                                                      : std::numeric_limits<double>::quiet_NaN());
-    }
-    grains.columns.push_back(std::move(column));
+    const auto says_diameter = [](const GsdShape& one) { return one.name == "Sphere" && one.half; };
+    if (!grains.find("diameter") && std::any_of(shapes.begin(), shapes.end(), says_diameter))
+        add_diameters(grains, shapes);
 }
 
 // The schema has all places in the box. One that is far outside of it is damage. byte: where the places are.
@@ -298,7 +279,7 @@ RawFrame GsdFrames::read(std::size_t index) const {
         frame.grains.columns.push_back({"type", std::vector<double>(frame.grains.rows, 0.0), {}});
     if (frame.box && places) check_places(frame, index, places->place);
     name_types(frame.grains, index);
-    add_diameters_of_shapes(frame.grains, index);
+    add_sizes_of_shapes(frame.grains, index);
     return frame;
 }
 

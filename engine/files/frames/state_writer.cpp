@@ -10,8 +10,8 @@
 #include "engine/files/fields_file.hpp"
 
 // All formats. NAME stands for a function WriteFormat NAME_format() in engine/files/frames/writers.
-#define GRAINREEL_FRAME_FORMATS(one)                                                             \
-    one(trajectory) one(lammps_dump) one(lammps_data) one(xyz_writer) one(csv) one(vtk) one(stl) \
+#define GRAINREEL_FRAME_FORMATS(one)                                                                         \
+    one(trajectory) one(lammps_dump) one(lammps_data) one(xyz_writer) one(csv) one(vtk) one(vtkhdf) one(stl) \
         one(gsd_writer) one(gltf) one(blender) one(grain_table)
 
 namespace grainreel {

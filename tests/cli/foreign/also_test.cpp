@@ -87,7 +87,7 @@ TEST_F(Also, ARunLeavesEachFormat) {
     ASSERT_EQ(ended.status, 0) << ended.err;
     EXPECT_EQ(
         names(),
-        "blender csv.csv gltf.glb gsd.gsd lammps-data.data lammps-dump.dump netcdf.nc stl.stl vtk xyz.xyz");
+        "blender csv.csv gltf.glb gsd.gsd lammps-data.data lammps-dump.dump netcdf.nc stl.stl vtk vtkhdf.vtkhdf xyz.xyz");
     for (const char* inside :
          {"vtk/grains.pvd", "gsd.gsd", "xyz.xyz", "csv.csv", "lammps-dump.dump", "netcdf.nc"})
         expect_like_run(inside);

@@ -379,7 +379,11 @@ bool try_h5md(const fs::path& file) {
         static_cast<unsigned>(std::min<std::uintmax_t>(30 + (error ? 0 : size) / 5000000, 3600));
     if (!survives(read_all, seconds))
         refuse_file(file, "is a damaged HDF5 file, on which the HDF5 library fails; copy it again");
-    return H5mdFile::is_h5md(Hdf5File(file));
+    const Hdf5File one(file);
+    if (one.has_group("VTKHDF"))
+        refuse_file(file,
+                    "is VTKHDF, which is not read; give what it was written from, or ParaView's CSV or .vtp");
+    return H5mdFile::is_h5md(one);
 }
 
 std::unique_ptr<RawFile> open_h5md(const fs::path& file) {

@@ -1,7 +1,6 @@
 #include "engine/files/foreign/h5md/hdf5_file.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
+#include "engine/files/netcdf/hdf5_handle.hpp"
 #include "engine/files/netcdf/hdf5_trial.hpp"
 
 namespace grainreel {
@@ -24,21 +24,6 @@ constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 30;  // bytes
 constexpr std::uint64_t kUsualChunk = std::uint64_t{16} << 20;   // bytes, also of a table with few numbers
 constexpr std::uint64_t kMostNames = 10000;
 constexpr std::uint64_t kMostText = 1 << 16;  // bytes of an attribute
-
-// A handle of the library, which is closed with its last owner. Null where the library has none.
-std::shared_ptr<void> owned(hid_t id, herr_t (*close)(hid_t)) {
-    if (id < 0) return nullptr;
-    auto* const held = new hid_t(id);
-    return std::shared_ptr<void>(held, [close](void* pointer) {
-        auto* const one = static_cast<hid_t*>(pointer);
-        close(*one);
-        delete one;
-    });
-}
-
-hid_t id_of(const std::shared_ptr<void>& handle) {
-    return *static_cast<const hid_t*>(handle.get());
-}
 
 // Called for a link to another file.
 herr_t refuse_link(const char*, const char*, const char*, const char*, unsigned*, hid_t, void*) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <system_error>
 
@@ -16,75 +15,13 @@
 #include "engine/files/frames/state_writer.hpp"
 #include "engine/files/frames/stored_world.hpp"
 #include "engine/files/frames/writers/vtk_file.hpp"
-#include "engine/state/container_faces.hpp"
+#include "engine/files/frames/writers/vtk_parts.hpp"
 
 namespace grainreel {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-void add(std::vector<double>& to, const Vec3& v) {
-    to.insert(to.end(), {v.x(), v.y(), v.z()});
-}
-
-VtkPolyData grains_of(const State& frame, const StoredWorld& world, const StateSupply& supply) {
-    VtkPolyData data;
-    std::vector<double> radius, velocity, spin;
-    std::vector<std::int64_t> id, type, contacts;
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-        add(data.points, frame.position[i]);
-        data.connectivity.push_back(static_cast<std::int64_t>(i));
-        radius.push_back(frame.radius[i]);
-        id.push_back(frame.id[i]);
-        type.push_back(frame.species[i] + 1);
-        add(velocity, frame.velocity[i]);
-        add(spin, frame.spin[i]);
-        if (i < frame.contact_number.size()) contacts.push_back(frame.contact_number[i]);
-    }
-    data.point_data = {VtkList::doubles("radius", radius), VtkList::integers("id", id),
-                       VtkList::integers("type", type)};
-    if (supply.velocities) data.point_data.push_back(VtkList::doubles("velocity", velocity, 3));
-    if (supply.spins) data.point_data.push_back(VtkList::doubles("omega", spin, 3));
-    if (supply.masses) data.point_data.push_back(VtkList::doubles("mass", frame.mass));
-    if (supply.contact_numbers) {
-        contacts.resize(frame.size(), -1);
-        data.point_data.push_back(VtkList::integers("contact_number", contacts));
-    }
-    std::vector<std::string> names;
-    for (const WorldSpecies& species : world.species) names.push_back(species.name);
-    data.facts.words.emplace_back("species", names);
-    return data;
-}
-
-VtkList force_array(const State& frame, const std::optional<std::vector<Vec3>>& forces) {
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> numbers;
-    for (std::size_t i = 0; i < frame.size(); ++i)
-        add(numbers, forces ? (*forces)[i] : Vec3(none, none, none));
-    return VtkList::doubles("force", numbers, 3);
-}
-
-VtkPolyData walls_of(const std::vector<WorldSurface>& surfaces, const State& frame) {
-    VtkPolyData data;
-    data.cells = VtkPolyData::Cells::triangles;
-    data.points_a_cell = 3;
-    std::vector<std::int64_t> number;
-    std::vector<std::string> names;
-    for (std::size_t s = 0; s < surfaces.size(); ++s) {
-        const TriangleMesh mesh = moved(surfaces[s], frame);
-        const auto first = static_cast<std::int64_t>(data.points.size() / 3);
-        for (const Vec3& vertex : mesh.vertices) add(data.points, vertex);
-        for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
-            for (const std::int32_t vertex : triangle) data.connectivity.push_back(first + vertex);
-            number.push_back(static_cast<std::int64_t>(s));
-        }
-        names.push_back(surfaces[s].name);
-    }
-    data.cell_data = {VtkList::integers("wall", number)};
-    data.facts.words.emplace_back("walls", names);
-    return data;
-}
 
 // Joins the components of a vector or tensor into one array in VTK's order. A scalar stays as it is.
 std::vector<VtkList> joined(const std::vector<std::string>& names,
@@ -156,14 +93,14 @@ class Vtk final : public StateWriter {
     }
     void cell(const std::optional<WorldCell>& now) override { world_.cell = now; }
     void frame(const State& frame, const std::vector<Link>& touches) override {
-        VtkPolyData grains = grains_of(frame, world_, supply_);
+        VtkPolyData grains = vtk_grains(frame, world_, supply_);
         if (has_forces_) {
             std::optional<std::vector<Vec3>> forces;
             if (contacts_) forces = forces_on_grains(frame, *contacts_, world_);
-            grains.point_data.push_back(force_array(frame, forces));
+            grains.point_data.push_back(vtk_forces(frame, forces));
         }
         write("grains", 0, frame, std::move(grains));
-        if (!surfaces_.empty()) write("walls", 1, frame, walls_of(surfaces_, frame));
+        if (!surfaces_.empty()) write("walls", 1, frame, vtk_walls(surfaces_, frame));
         if (supply_.contacts)
             write("contacts", 2, frame,
                   has_forces_ ? contact_lines(frame, contacts_.value_or(std::vector<SavedContact>()), world_)

@@ -166,7 +166,8 @@ def inspect(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Op
 
 
 _EXPORTS = {"netcdf": "frames.nc", "lammps-dump": "frames.lammpstrj", "lammps-data": "last.data", "xyz": "frames.xyz",
-            "csv": "frames.csv", "stl": "walls.stl", "gsd": "frames.gsd", "gltf": "last.glb", "grain-table": "last.csv"}
+            "csv": "frames.csv", "vtkhdf": "frames.vtkhdf", "stl": "walls.stl", "gsd": "frames.gsd", "gltf": "last.glb",
+            "grain-table": "last.csv"}
 
 
 def export(run: Union[PathLike, "Run"], to: str, *, out: Optional[PathLike] = None, force: bool = False,
@@ -175,7 +176,7 @@ def export(run: Union[PathLike, "Run"], to: str, *, out: Optional[PathLike] = No
            reading: Settings = None) -> Path:
     """Writes the frames of a run for another program, and gives the file or folder.
 
-    - `to`: "vtk", "xyz", "csv", "lammps-dump", "lammps-data", "netcdf", "stl", "gsd", "gltf", "blender" or
+    - `to`: "vtk", "vtkhdf", "xyz", "csv", "lammps-dump", "lammps-data", "netcdf", "stl", "gsd", "gltf", "blender" or
       "grain-table".
     - `out`: the file or folder. Without it they go into the run's own folder, in place of an earlier export of this
       format; those of other programs' files go beside these.
