@@ -36,7 +36,8 @@ namespace {
 
 constexpr double endless = 1e9;
 constexpr double shrinks[] = {1, 0.9, 0.8, 0.7};
-constexpr double least_port = 0.36;  // share of the picture's height between gutters above and below
+constexpr double least_port = 0.36;   // share of the picture's height between gutters above and below
+constexpr double highest_row = 0.45;  // share of the picture's height for a row with both gutters
 // Shares of the picture's width for a column with all words, and how much wider than their longest word such
 // columns are tried: in a wider one, titles and legends have fewer lines.
 constexpr double widest_column = 0.45, wider[] = {1, 1.2, 1.4};
@@ -64,9 +65,9 @@ enum class Way {
     below_and_side,   // the first below, the second at the right
     side_and_below,   // the first at the left, the second below
 };
-constexpr Way ways[] = {Way::sides,           Way::row_above, Way::row_below,      Way::column,
-                        Way::above_and_below, Way::below,     Way::above_and_side, Way::below_and_side,
-                        Way::side_and_below};
+constexpr Way ways[] = {Way::sides,          Way::row_above,       Way::row_below,
+                        Way::column,         Way::above_and_below, Way::below,
+                        Way::above_and_side, Way::below_and_side,  Way::side_and_below};
 // The first gutter lies below only where the container runs out of the picture above.
 bool begins_below(Way way) {
     return way == Way::row_below || way == Way::below || way == Way::below_and_side;
@@ -120,7 +121,7 @@ std::vector<PictureLayout> one_row(const FilmedScene& scene, PictureLayout layou
     const int right = whole(numbers.width + 2 * margin), left = width - right;
     if (left < right) return {};
     layout.stacked = layout.one_row = true;
-    layout.first.height = static_cast<int>(0.34 * height);
+    layout.first.height = static_cast<int>(highest_row * height);
     const FirstPart first = first_part(measure, scene, nullptr, layout, left);
     if (first.empty()) return {};
     const double second = plan_numbers(measure, scene, right, height, true).height;
