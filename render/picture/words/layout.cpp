@@ -119,7 +119,8 @@ std::vector<PictureLayout> one_row(const FilmedScene& scene, PictureLayout layou
     const NumbersPlan numbers = plan_numbers(measure, scene, width, height, true);
     if (numbers.empty || !scene.film.shows.plots.empty()) return {};
     const int right = whole(numbers.width + 2 * margin), left = width - right;
-    if (left < right) return {};
+    constexpr double most_legend = 0.6;  // of the first gutter's width; a wider one would be cut
+    if (left < right || legend_block(measure, scene, 0, 0, 0).width > most_legend * left) return {};
     layout.stacked = layout.one_row = true;
     layout.first.height = static_cast<int>(highest_row * height);
     const FirstPart first = first_part(measure, scene, nullptr, layout, left);
