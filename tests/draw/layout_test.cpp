@@ -150,11 +150,13 @@ TEST(Layout, TheVesselIsLargeInWideSquareAndUprightPictures) {
         {"teaching_sorting", "720x1280", 0.3},
         {"teaching_gas_cooling", "640x640", 0.36},
         {"teaching_changing_drive", "720x1280", 0.3},
-        {"gravel", "854x480", 0.65},
-        {"gravel", "640x640", 0.5},
-        {"gravel", "720x1280", 0.43},
+        {"gravel", "854x480", 0.63},
+        {"gravel", "640x640", 0.31},
+        {"gravel", "720x1280", 0.39},
         {"poured_heap", "854x480", 0.48},
-        {"teaching_friction_and_rolling", "854x480", 0.37},
+        {"teaching_friction_and_rolling", "854x480", 0.38},
+        {"teaching_friction_and_rolling", "640x480", 0.36},
+        {"convection_wedge", "854x480", 0.3},
     };
     for (const auto& [name, size, least] : all) {
         const std::string file = std::string(GRAINREEL_SOURCE "/scenes/") + name + ".toml";

@@ -8,6 +8,7 @@ grainreel=${1:-$root/build/release/grainreel} work=${2:-$root/output/images}
 here=$root/docs/figures/images
 wedge=$root/scenes/wedge_segregation.toml nut=$root/scenes/teaching_brazil_nut.toml
 mkdir -p "$work"
+plain=(--set 'film.ghost=[]' --set 'film.trails={}' --set 'film.caption=[]')  # without what the scene's film explains
 
 run() { echo "grainreel $*"; "$grainreel" "$@" --quiet --force > /dev/null; }
 beside() { ffmpeg -v error -y -i "$work/$2" -i "$work/$3" -filter_complex hstack "$here/$1"; }
@@ -18,7 +19,7 @@ run render "$work/wedge" --every 1 --format gif --size 560x420 --set film.rate=1
 cp "$work/gif/movie.gif" "$here/wedge.gif"
 
 # Colours and marks: rise, arrows, plots.
-run render "$work/wedge" --at 5 --size 1120x630 --set film.colour.by=rise --set film.arrows.grid=12 \
+run render "$work/wedge" --at 5 --size 1120x630 --set film.colour.by=rise --set film.arrows.grid=12 "${plain[@]}" \
     --out "$here/convection.png"
 
 # The forces on a grain.
@@ -42,7 +43,7 @@ beside spans.png exposure.png average.png
 run movie "$nut" --no-film --duration 2s --out "$work/nut"
 for quarter in 0 1 2 3; do
     run render "$work/nut" --at 2 --size 360x330 --set film.camera.azimuth=$((20 + 90 * quarter)) --set film.plot=[] \
-        --set film.axes=true --out "$work/orbit$quarter.png"
+        --set 'film.caption=[]' --set film.axes=true --out "$work/orbit$quarter.png"
 done
 ffmpeg -v error -y -i "$work/orbit0.png" -i "$work/orbit1.png" -i "$work/orbit2.png" -i "$work/orbit3.png" \
     -filter_complex hstack=inputs=4 "$here/orbit.png"

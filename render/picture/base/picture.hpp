@@ -53,6 +53,7 @@ double least_letters(const Film& film);
 // Which parts of the picture are gutters for words, and which part shows the container.
 struct PictureLayout {
     bool stacked = false;  // the second gutter is rows below the container instead of a column
+    bool one_row = false;  // both gutters lie beside each other in one row, above or below the container
     TypeScale type{};      // sizes of the words
     Rectangle first;       // title, legend, scale; in rows if it is as wide as the picture, else in a column
     Rectangle second;      // time, drive, playback, plots

@@ -42,8 +42,10 @@ void smooth(std::vector<Trails::Point>& path, double reach) {
             sum += raw[k].at, ++count;
             return true;
         };
-        for (std::size_t k = i; k-- > 0 && add(k);) {}
-        for (std::size_t k = i + 1; k < raw.size() && add(k); ++k) {}
+        for (std::size_t k = i; k-- > 0 && add(k);) {
+        }
+        for (std::size_t k = i + 1; k < raw.size() && add(k); ++k) {
+        }
         path[i].at = sum / count;
     }
 }

@@ -33,8 +33,8 @@ class Trails {
         double age;  // 0: now, 1: as old as trails get
         Vec3 at;     // m
     };
-    // The path of each grain, with the newest point first; with a drive, without the shaking. A path ends where a grain left through a periodic
-    // wall and came back at the opposite one.
+    // The path of each grain, with the newest point first; with a drive, without the shaking. A path ends
+    // where a grain left through a periodic wall and came back at the opposite one.
     std::vector<std::vector<Point>> paths() const;
 
   private:
@@ -48,7 +48,7 @@ class Trails {
     std::vector<bool> species_;
     std::vector<std::int32_t> grains_;
     double duration_, smoothing_, longest_jump_;  // s, s, m; smoothing_ 0: as it was
-    std::deque<PastFrame> past_;  // the newest first
+    std::deque<PastFrame> past_;                  // the newest first
 };
 
 bool has_marks(const FilmShows& look);

@@ -25,8 +25,8 @@ double round_length(double longest);
 // Lines that say what the drive does in a frame: f, Gamma and amplitude. While the drive grows or goes from
 // one stage to another, these are the values of the moment.
 std::vector<std::string> drive_lines(const FilmedScene& scene, const State& frame);
-// What shakes in one line: "15 Hz, Γ = 4", "taps of 20 Hz, Γ = 4", "at rest". A part that is not wanted is left
-// out.
+// What shakes in one line: "15 Hz, Γ = 4", "taps of 20 Hz, Γ = 4", "at rest". A part that is not wanted is
+// left out.
 struct ShakingParts {
     bool frequency = true, g_level = true;
 };

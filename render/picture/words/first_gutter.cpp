@@ -223,7 +223,7 @@ FirstPart column_part(const Writer& writer, const Blocks& blocks, double inner, 
 FirstPart first_part(const Writer& writer, const FilmedScene& scene, const View* view,
                      const PictureLayout& layout, double width) {
     const TypeScale& type = writer.type;
-    const bool in_rows = width >= scene.film.width;
+    const bool in_rows = layout.one_row || width >= scene.film.width;
     const double inner = std::max(1.0, width - (in_rows ? 2.0 : 1.5) * type.margin);
     const double room = layout.first.height > 0 ? layout.first.height - type.margin : endless_room;
     // The scale holds at the depth of the middle of the framed part.

@@ -36,7 +36,8 @@ namespace {
 
 constexpr double endless = 1e9;
 constexpr double shrinks[] = {1, 0.9, 0.8, 0.7};
-constexpr double least_port = 0.36;  // share of the picture's height between gutters above and below
+constexpr double least_port = 0.36;   // share of the picture's height between gutters above and below
+constexpr double highest_row = 0.45;  // share of the picture's height for a row with both gutters
 // Shares of the picture's width for a column with all words, and how much wider than their longest word such
 // columns are tried: in a wider one, titles and legends have fewer lines.
 constexpr double widest_column = 0.45, wider[] = {1, 1.2, 1.4};
@@ -55,6 +56,8 @@ double natural_height(const FilmedScene& scene, const TypeScale& type, int width
 // Where the two gutters lie. A gutter as wide as the picture has its words in rows, another has a column.
 enum class Way {
     sides,            // columns left and right
+    row_above,        // both beside each other in one row above
+    row_below,        // the same below
     column,           // one column at the left, with the words of both gutters below each other
     above_and_below,  // rows above and below
     below,            // both below
@@ -62,8 +65,13 @@ enum class Way {
     below_and_side,   // the first below, the second at the right
     side_and_below,   // the first at the left, the second below
 };
-constexpr Way ways[] = {Way::sides,          Way::column,         Way::above_and_below, Way::below,
-                        Way::above_and_side, Way::below_and_side, Way::side_and_below};
+constexpr Way ways[] = {Way::sides,          Way::row_above,       Way::row_below,
+                        Way::column,         Way::above_and_below, Way::below,
+                        Way::above_and_side, Way::below_and_side,  Way::side_and_below};
+// The first gutter lies below only where the container runs out of the picture above.
+bool begins_below(Way way) {
+    return way == Way::row_below || way == Way::below || way == Way::below_and_side;
+}
 
 // Pixels: the height of the rows of the first gutter.
 int first_rows(const FilmedScene& scene, PictureLayout layout, const Writer& measure) {
@@ -101,6 +109,29 @@ PictureLayout stacked(const FilmedScene& scene, PictureLayout layout, const Writ
     layout.second = low > 0 ? Rectangle{0, height - low, width, low} : Rectangle();
     layout.port = {0, above ? top : 0, width, free_height};
     return layout;
+}
+
+// The layout with both gutters beside each other in one row. Plots are too high for it.
+std::vector<PictureLayout> one_row(const FilmedScene& scene, PictureLayout layout, const Writer& measure,
+                                   Way way) {
+    const double margin = layout.type.margin;
+    const int width = scene.film.width, height = scene.film.height - layout.caption.height;
+    const NumbersPlan numbers = plan_numbers(measure, scene, width, height, true);
+    if (numbers.empty || !scene.film.shows.plots.empty()) return {};
+    const int right = whole(numbers.width + 2 * margin), left = width - right;
+    constexpr double most_legend = 0.6;  // of the first gutter's width; a wider one would be cut
+    if (left < right || legend_block(measure, scene, 0, 0, 0).width > most_legend * left) return {};
+    layout.stacked = layout.one_row = true;
+    layout.first.height = static_cast<int>(highest_row * height);
+    const FirstPart first = first_part(measure, scene, nullptr, layout, left);
+    if (first.empty()) return {};
+    const double second = plan_numbers(measure, scene, right, height, true).height;
+    const int row = whole(std::max(first.height, second) + margin);
+    const bool above = way == Way::row_above;
+    layout.first = {0, above ? 0 : height - row, left, row};
+    layout.second = {left, layout.first.y, right, row};
+    layout.port = {0, above ? row : 0, width, height - row};
+    return {layout};
 }
 
 // Pixels: the width of the longest word above a colour bar.
@@ -216,7 +247,7 @@ bool runs_out_above(const FilmedScene& scene, const View& view) {
 
 // Whether the first gutter is a column.
 bool has_column(const FilmedScene& scene, const PictureLayout& layout) {
-    return layout.first.width > 0 && layout.first.width < scene.film.width;
+    return !layout.one_row && layout.first.width > 0 && layout.first.width < scene.film.width;
 }
 
 // Writes into the layout the names of the blocks that it has no room for.
@@ -243,7 +274,8 @@ double judged_size(const FilmedScene& scene, const PictureLayout& layout, const 
     const double inner = layout.first.width - 1.5 * layout.type.margin;
     if (has_column(scene, layout) && legend_block(measure, scene, 0, 0, 0).width > inner)
         size /= price_of_a_short_legend;
-    return way == Way::sides || way == Way::above_and_below ? size : size / price_of_unevenness;
+    const bool even = way == Way::sides || way == Way::above_and_below || layout.one_row;
+    return even ? size : size / price_of_unevenness;
 }
 
 // Whether one layout leaves out fewer words than the other.
@@ -263,6 +295,9 @@ std::vector<PictureLayout> laid_out(const FilmedScene& scene, const PictureLayou
     switch (way) {
         case Way::sides:
             return {side_by_side(scene, layout, measure)};
+        case Way::row_above:
+        case Way::row_below:
+            return one_row(scene, layout, measure, way);
         case Way::above_and_below:
         case Way::below:
             return {stacked(scene, layout, measure, way)};
@@ -307,8 +342,7 @@ Judged best_layout(const FilmedScene& scene) {
         last = empty.type.main;
         const Writer measure{nullptr, empty.type, palette};
         for (const Way way : ways) {
-            // The first gutter lies below only where the container runs out of the picture above.
-            if ((way == Way::below || way == Way::below_and_side) && !cut) continue;
+            if (begins_below(way) && !cut) continue;
             if (best && best->fits && best->layout.left_out.empty() && best->size > nearly * largest * last)
                 return *best;
             for (PictureLayout& layout : laid_out(scene, empty, measure, way))

@@ -103,7 +103,8 @@ const KeyTable<FilmPlot>& plot_table() {
             .useless_for([](const P& plot) {
                 return plot.is_profile() ? "a plot with a 'profile' shows that" : nullptr;
             }),
-        choice("smooth", &P::period, smoothings, note("period with a drive and three periods or more, else none"),
+        choice("smooth", &P::period, smoothings,
+               note("period with a drive and three periods or more, else none"),
                "period: the line of a column is the mean over the last period of the drive, and its rows are "
                "a faint line behind it; none: the rows alone.")
             .useless_for([](const P& plot) {
@@ -112,8 +113,8 @@ const KeyTable<FilmPlot>& plot_table() {
             .usually([](P& plot, const Scene& scene) {
                 constexpr double least_periods = 3;  // a shorter run has hardly a mean to show
                 if (!plot.is_profile())
-                    plot.period = scene.drive.present &&
-                                  scene.run.duration * scene.drive.frequency >= least_periods;
+                    plot.period =
+                        scene.drive.present && scene.run.duration * scene.drive.frequency >= least_periods;
             }),
         text("label", &P::label, note("by the column"), "Above the plot.").unwritten_if([](const P& plot) {
             return !plot.own_label;
