@@ -154,8 +154,10 @@ State read_grain_table(const std::filesystem::path& path) {
     CsvRows rows(file, path);
     const std::optional<TableForm> form = rows.next() ? form_of(rows.text()) : std::nullopt;
     if (!form) {
-        throw UserError(fmt::format("{}:1:1: not a table of grains; the first line must be `{}`",
-                                    path.string(), plain_header));
+        throw UserError(
+            fmt::format("{}:1:1: not a table of grains; the first line must be `{}`; of a file of another "
+                        "program, `grainreel export FILE --to grain-table` makes one",
+                        path.string(), plain_header));
     }
     State frame;
     std::unordered_set<std::int32_t> ids;

@@ -38,14 +38,20 @@ std::vector<Vec3> accelerations(const Scene& scene, const State& now, const Stat
     return all;
 }
 
+// The number of a frame from 0; one below 0 counts from the end, so that -1 is the last.
+std::int64_t from_start(std::int64_t frame, std::int64_t count) {
+    return frame < 0 ? frame + count : frame;
+}
+
 // Finds a kept moment by its frame number. An imported file of frames has no film, so its own frames are
 // counted.
-AskedMoment kept_frame(const StoredRun& run, std::int64_t frame, const std::string& name) {
+AskedMoment kept_frame(const StoredRun& run, std::int64_t asked, const std::string& name) {
     const std::vector<State>& moments = run.moments();
     const auto count = static_cast<std::int64_t>(moments.size());
+    const std::int64_t frame = from_start(asked, count);
     if (frame < 0 || frame >= count)
         throw UserError(
-            fmt::format("--frame: {} has the frames 0 to {}, but {} is asked for", name, count - 1, frame));
+            fmt::format("--frame: {} has the frames 0 to {}, but {} is asked for", name, count - 1, asked));
     const auto index = static_cast<std::size_t>(frame);
     return {moments[index].step, moments[index].time, index, index, frame + 1 == count};
 }
@@ -70,20 +76,23 @@ std::int64_t step_of_frame(const StoredRun& run, const MomentRequest& request) {
             fmt::format("--frame: {} has no {}, so that the moments of its film are not known; give --at "
                         "TIME, or run the scene again with its film and output.film_moments = true",
                         run.path().string(), kFilmMoments));
-    const std::int64_t frame = *request.frame;
     const StateArchive* const pictures = run.kept().film();
     if (pictures == nullptr) throw UserError(run.kept().faults_of_film().front().what);
     const std::vector<std::string> damage = pictures->damage();
+    std::vector<std::pair<std::int64_t, std::int64_t>> ends;  // frames up to each picture, and its step
     std::int64_t shown = 0;
     for (std::size_t k = 0; k < pictures->moments().size(); ++k) {
         if (pictures->place(k) != k) break;  // from the first damaged picture on the numbers are unknown
         const State& moment = pictures->moments()[k];
         shown += 1 + (request.held ? request.held(moment.time) : 0);
-        if (frame < shown && frame >= 0) return moment.step;
+        ends.emplace_back(shown, moment.step);
     }
+    const std::int64_t frame = damage.empty() ? from_start(*request.frame, shown) : *request.frame;
+    for (const auto& [end, step] : ends)
+        if (frame >= 0 && frame < end) return step;
     if (!damage.empty()) throw UserError(damage.front());
-    throw UserError(
-        fmt::format("--frame: the film has the frames 0 to {}, but {} is asked for", shown - 1, frame));
+    throw UserError(fmt::format("--frame: the film has the frames 0 to {}, but {} is asked for", shown - 1,
+                                *request.frame));
 }
 
 // The snapshot of a restored run, without accelerations.

@@ -1,6 +1,7 @@
 // What exports say of boxes, steps, ids and times: what the files say that they come from, and nothing else.
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -239,6 +240,23 @@ TEST_F(ExportFacts, AGlbOfManyGrainsSaysThatItNeedsInstances) {
     const nlohmann::json many = json_of_glb(text("many.glb"));
     EXPECT_EQ(many["extensionsRequired"], nlohmann::json({"EXT_mesh_gpu_instancing"}));
     EXPECT_EQ(many["extensionsUsed"], many["extensionsRequired"]);
+}
+
+// A file that is written has another name until it is whole, which no user has asked for.
+TEST_F(ExportFacts, MessagesNameTheFileThatIsAskedFor) {
+    std::ofstream(folder_ / "still.csv") << "id,x,y,z,radius\n1,0,0,0,0.001\n";
+    const Exported made = exported(*opened("still.csv"), "grain-table", "start.csv");
+    ASSERT_FALSE(made.news.empty());
+    EXPECT_THAT(made.news.back(), testing::StartsWith("start.csv: velocities"));
+    std::ofstream(folder_ / "one.csv")
+        << "id,x,y,z,radius,vx,vy,vz\n1,0,0,0,0.001,nan,0,0\n2,1,0,0,0.001,1,2,3\n";
+    try {
+        exported(*opened("one.csv"), "grain-table", "start.csv");
+        FAIL() << "a run cannot start with an unknown velocity";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), test::tells({"start.csv", "velocity of grain 1"}));
+        EXPECT_THAT(error.what(), Not(HasSubstr(".part")));
+    }
 }
 
 }  // namespace

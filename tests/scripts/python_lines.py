@@ -2,8 +2,12 @@
 
 check(program) runs each in the present folder, which has scene.toml, and returns the lines that do not hold.
 """
+import copy
 import pickle
 from pathlib import Path
+
+import numpy
+import pandas
 
 PRELUDE = """
 import grainreel
@@ -46,6 +50,20 @@ grainreel.compare([run, other], out="pair", size="640x360").path.is_dir()
 len(grainreel.study("study.toml", out="sweep").table) == 2
 """.strip().splitlines()
 
+# More lines, of 2026-11-29, likewise written down beforehand (some as they stand above are left out).
+MORE = """
+copy.deepcopy(run) == run and len({run, grainreel.open("line")}) == 1
+(grainreel.open("two.xyz").render(frame=-1, size="160x120") == grainreel.open("two.xyz").render(frame=1, size="160x120")).all()
+list(reversed(run))[0].equals(run[-1]) and run[numpy.int64(-1)].equals(run[-1])
+run[-1].where(run[-1].species == "big", drop=True).sizes["atom"] == 10
+run[-1].groupby("species").mean().sizes["species"] == 2
+run.trajectory.swap_dims(frame="time").z.interp(time=0.1).sizes == {"atom": 50}
+run.contacts.groupby("time").sum().normal.sizes["time"] >= 1
+run.measures.to_dataframe().index.name == "time"
+run.render(size="160x120", colour=pandas.Series(numpy.arange(50.0), index=pandas.Index(last.id.values, name="id"))).shape[0] == 120
+Path(run.export("csv")).read_text().count(chr(10)) == 1 + 50 * len(run)
+""".strip().splitlines()
+
 STUDY = """scene = "scene.toml"
 [[vary]]
 key = "drive.g_level"
@@ -62,7 +80,7 @@ TWO = "".join(f'1\nLattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:ra
 def failing(names):
     """The lines that do not hold, each with the reason."""
     wrong = []
-    for line in LINES:
+    for line in LINES + MORE:
         try:
             held = eval(line, names)
         except Exception as error:
@@ -77,7 +95,7 @@ def check():
     assert len(LINES) == 30
     Path("study.toml").write_text(STUDY)
     Path("two.xyz").write_text(TWO)
-    names = {"pickle": pickle, "Path": Path}
+    names = {"copy": copy, "numpy": numpy, "pandas": pandas, "pickle": pickle, "Path": Path}
     for line in PRELUDE.strip().splitlines():
         exec(line, names)
     return failing(names)

@@ -102,9 +102,38 @@ class PartName {
     PartName& operator=(const PartName&) = delete;
     const fs::path& path() const { return path_; }
 
+    // A message with the name that the file will have in place of this one.
+    std::string renamed(std::string text, const fs::path& path) const {
+        const std::string own = path_.filename().string();
+        for (std::size_t place = text.find(own); place != std::string::npos; place = text.find(own, place))
+            text.replace(place, own.size(), path.filename().string());
+        return text;
+    }
+
   private:
     fs::path path_;
 };
+
+void write_all(const StateArchive& frames, const std::vector<std::size_t>& wanted, StateWriter& writer,
+               const std::function<bool(double)>& watcher) {
+    writer.begin(frames.world(), frames.supply());
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        State frame = frames.grains(wanted[k]);
+        // Without steps the frames are numbered, for formats that cannot do without a number.
+        frame.step =
+            frames.written_step(wanted[k]).value_or(static_cast<std::int64_t>(frames.place(wanted[k])));
+        writer.cell(frames.cell(wanted[k]));
+        const std::optional<std::vector<Link>> touches = frames.touches(wanted[k]);
+        if (writer.takes_all())
+            if (const std::optional<std::vector<SavedContact>> all = frames.contacts(wanted[k]))
+                writer.contacts(*all);
+        writer.frame(frame, touches.value_or(std::vector<Link>()));
+        if (!watcher(static_cast<double>(k + 1) / static_cast<double>(wanted.size())))
+            throw RunError("stopped while frames were written; nothing is left of them");
+    }
+    if (writer.takes_all()) add_fields(frames, wanted, writer);
+    writer.end();
+}
 
 }  // namespace
 
@@ -125,26 +154,18 @@ Exported export_frames(const StateArchive& frames, const std::string& format, co
     check_free(path, replace);
     const std::vector<std::size_t> wanted = chosen(frames, choice);
     const PartName part(path);
-    const std::unique_ptr<StateWriter> writer = frame_writer(format, part.path());
-    writer->begin(frames.world(), frames.supply());
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-        State frame = frames.grains(wanted[k]);
-        // Without steps the frames are numbered, for formats that cannot do without a number.
-        frame.step =
-            frames.written_step(wanted[k]).value_or(static_cast<std::int64_t>(frames.place(wanted[k])));
-        writer->cell(frames.cell(wanted[k]));
-        const std::optional<std::vector<Link>> touches = frames.touches(wanted[k]);
-        if (writer->takes_all())
-            if (const std::optional<std::vector<SavedContact>> all = frames.contacts(wanted[k]))
-                writer->contacts(*all);
-        writer->frame(frame, touches.value_or(std::vector<Link>()));
-        if (!watcher(static_cast<double>(k + 1) / static_cast<double>(wanted.size())))
-            throw RunError("stopped while frames were written; nothing is left of them");
-    }
-    if (writer->takes_all()) add_fields(frames, wanted, *writer);
-    writer->end();
     std::vector<std::string> news = frames.news_of_frames();
-    for (std::string& line : writer->news()) news.push_back(std::move(line));
+    try {
+        const std::unique_ptr<StateWriter> writer = frame_writer(format, part.path());
+        write_all(frames, wanted, *writer, watcher);
+        for (const std::string& line : writer->news()) news.push_back(part.renamed(line, path));
+    } catch (const RunError& error_of_part) {
+        throw RunError(part.renamed(error_of_part.what(), path));
+    } catch (const UserError& error_of_part) {
+        const std::string renamed = part.renamed(error_of_part.what(), path);
+        if (renamed == error_of_part.what()) throw;
+        throw UserError(renamed);
+    }
     if (fs::is_directory(path, error)) fs::remove_all(path, error);
     fs::rename(part.path(), path, error);
     if (error) throw RunError(fmt::format("{}: cannot be made: {}", path.string(), error.message()));

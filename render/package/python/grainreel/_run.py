@@ -73,7 +73,7 @@ class Run:
         self._read.clear()
 
     def _key(self) -> Any:
-        return os.path.realpath(self.path), sorted((name, repr(value)) for name, value in self._reading.items())
+        return os.path.realpath(self.path), tuple(sorted((name, repr(value)) for name, value in self._reading.items()))
 
     def _is_foreign(self) -> bool:
         return not (self.path / "scene.toml").is_file()

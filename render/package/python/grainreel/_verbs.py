@@ -90,8 +90,8 @@ def render(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Opt
     """A picture of a moment of a run, or of another program's files, as an array: rows x columns x 3 (4 where it is
     transparent) numbers of 0 to 255.
 
-    - `at`: s; `frame`: number of a frame of the film, whose run was made with `film=True`; `cycle`: periods of the drive,
-      and `phase`, from 0 to 1 of the next one. None of them: the last moment.
+    - `at`: s; `frame`: number of a frame of the film, from 0 or from its end (-1), of a run that was made with `film=True`;
+      `cycle`: periods of the drive, and `phase`, from 0 to 1 of the next one. None of them: the last moment.
     - `size`: "640x480" or (640, 480).
     - `colour`: a number for each grain by which they are coloured, in the order of ids, or with the ids as the
       coordinate or the index `id`, as arrays of `run[-1]` have them. `colour__range=(0, 2)`, `colour__map="vik"`,
