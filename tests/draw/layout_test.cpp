@@ -174,6 +174,23 @@ TEST(Layout, TheVesselIsLargeInWideSquareAndUprightPictures) {
     }
 }
 
+// In a small picture a row with all words would break the legend of the trails letter by letter.
+TEST(Layout, ARowIsNotSqueezed) {
+    FilmedScene scene = scene_of(320, 180, {0, 1});
+    scene.film.title = "One";
+    scene.film.shows.trails = {{0}, {}, 0.01};
+    EXPECT_FALSE(plan_layout(scene).one_row);
+}
+
+TEST(Layout, AWideVesselHasItsWordsInOneRow) {
+    const FilmedScene scene =
+        read_filmed_scene(GRAINREEL_SOURCE "/scenes/conveyor.toml", {"film.size=854x480"}, measurable_in);
+    const PictureLayout layout = plan_layout(scene);
+    EXPECT_TRUE(layout.one_row);
+    EXPECT_EQ(layout.port.width, scene.film.width);
+    EXPECT_EQ(layout.first.y, layout.second.y);
+}
+
 TEST(Layout, LettersShrinkBeforeWordsAreLeftOut) {
     const FilmedScene roomy = scene_of(1920, 1080, {0, 2});
     const double whole = type_scale(roomy.film).main;

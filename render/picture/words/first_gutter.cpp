@@ -162,7 +162,7 @@ FirstPart row_part(const Writer& writer, const Blocks& blocks, double inner, dou
     const double others =
         (colours > 0 ? colours + gap : 0) + (marks > 0 ? marks + gap : 0) + (axes > 0 ? axes + gap : 0) + bar;
     const double legend = type.margin + inner - others - gap - x;
-    constexpr double least_legend = 0.6;  // of its width without breaks of lines
+    constexpr double least_legend = 0.75;  // of its width without breaks of lines
     if (legend < least_legend * legend_block(measure, blocks.scene(), 0, 0, 0).width)
         part.left_out.emplace_back("a part of the legend");
     Column column(x, top, room, part);

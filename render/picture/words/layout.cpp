@@ -111,6 +111,17 @@ PictureLayout stacked(const FilmedScene& scene, PictureLayout layout, const Writ
     return layout;
 }
 
+// Whether legend, colour bar, marks and scale are not squeezed in rows of this width, pixels.
+bool has_room_for_rows(const FilmedScene& scene, const Writer& measure, double width) {
+    constexpr double most_legend = 0.6;                      // of the width
+    constexpr double least_letters = 7, least_digits = 2.5;  // in a fifth and in an eighth of the width
+    const bool thirds = has_colour_bar(scene.film) || marks_block(measure, scene, 1, 0, 0, width).height > 0;
+    return width > 0.5 * scene.film.width &&
+           legend_block(measure, scene, 0, 0, 0).width <= most_legend * width &&
+           (!thirds || 0.2 * width >= least_letters * measure.type.minor) &&
+           0.12 * width >= least_digits * measure.type.main;
+}
+
 // The layout with both gutters beside each other in one row. Plots are too high for it.
 std::vector<PictureLayout> one_row(const FilmedScene& scene, PictureLayout layout, const Writer& measure,
                                    Way way) {
@@ -119,8 +130,7 @@ std::vector<PictureLayout> one_row(const FilmedScene& scene, PictureLayout layou
     const NumbersPlan numbers = plan_numbers(measure, scene, width, height, true);
     if (numbers.empty || !scene.film.shows.plots.empty()) return {};
     const int right = whole(numbers.width + 2 * margin), left = width - right;
-    constexpr double most_legend = 0.6;  // of the first gutter's width; a wider one would be cut
-    if (left < right || legend_block(measure, scene, 0, 0, 0).width > most_legend * left) return {};
+    if (!has_room_for_rows(scene, measure, left)) return {};
     layout.stacked = layout.one_row = true;
     layout.first.height = static_cast<int>(highest_row * height);
     const FirstPart first = first_part(measure, scene, nullptr, layout, left);
