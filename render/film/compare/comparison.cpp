@@ -278,8 +278,8 @@ void take_one(double at, Comparison& all) {
     // Heights at the start are those of the film's first picture.
     const Instant first = instants.front();
     const bool from_start =
-        first.time < at - hair && std::any_of(all.panels.begin(), all.panels.end(), [](const Panel& panel) {
-            return shows_value(panel.scene.film.shows, GrainValue::start_height);
+        first.time < at - hair && std::any_of(all.members.begin(), all.members.end(), [](const auto& member) {
+            return shows_value(member->scene().film.shows, GrainValue::start_height);
         });
     instants = {{at, segment}};
     if (from_start) instants.insert(instants.begin(), {first.time, segment});
