@@ -24,6 +24,14 @@ TEST(Differences, KeysHaveTheirTableAndItsNumber) {
                              Pair("species.2.list", "[1,2]")));
 }
 
+TEST(Differences, EntriesOfInlineTablesAreKeys) {
+    EXPECT_THAT(keys_of_scene("[container]\noutlet = { width = 0.018, name = \"a, b\", list = [1, 2] }\n"
+                              "size = { min = 1, max = 2 }\n"),
+                UnorderedElementsAre(
+                    Pair("container.outlet.width", "0.018"), Pair("container.outlet.name", "\"a, b\""),
+                    Pair("container.outlet.list", "[1, 2]"), Pair("container.size", "{ min = 1, max = 2 }")));
+}
+
 TEST(Differences, OnlyWhatDiffersIsInTheTable) {
     const test::TemporaryFolder here;
     test::write_text(here / "a.toml", "title = \"<i>a</i>\"\n[run]\nduration = 1\nstep = 0.3\n");

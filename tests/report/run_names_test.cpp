@@ -55,8 +55,12 @@ TEST(RunNames, SayWhatDiffersUnderOneTitle) {
     two.add("a", {"run.seed=1", "species.big.diameter=6 mm"});
     two.add("b", {"run.seed=2", "species.big.diameter=6 mm"});
     two.add("c", {"run.seed=2", "species.big.diameter=5 mm"});
-    EXPECT_THAT(two.names(), ElementsAre("seed = 1, diameter = 0.006 m", "seed = 2, diameter = 0.006 m",
-                                         "seed = 2, diameter = 0.005 m"));
+    EXPECT_THAT(two.names(), ElementsAre("seed = 1, diameter = 6 mm", "seed = 2, diameter = 6 mm",
+                                         "seed = 2, diameter = 5 mm"));
+    Runs outlet;  // an inline table in scene.toml
+    outlet.add("a", {"container.outlet={ width=\"8 mm\", opens=0.05 }"});
+    outlet.add("b", {"container.outlet={ width=\"9 mm\", opens=0.05 }"});
+    EXPECT_THAT(outlet.names(), ElementsAre("width = 8 mm", "width = 9 mm"));
 }
 
 TEST(RunNames, AreTheFoldersWhereNothingElseTellsThemApart) {

@@ -275,11 +275,18 @@ void take_one(double at, Comparison& all) {
     const std::ptrdiff_t place = std::max<std::ptrdiff_t>(0, after - instants.begin() - 1);
     all.still = static_cast<double>(place) / all.film.film.rate;
     const int segment = instants.at(static_cast<std::size_t>(place)).segment;
+    // Heights at the start are those of the film's first picture.
+    const Instant first = instants.front();
+    const bool from_start =
+        first.time < at - hair && std::any_of(all.members.begin(), all.members.end(), [](const auto& member) {
+            return shows_value(member->scene().film.shows, GrainValue::start_height);
+        });
     instants = {{at, segment}};
+    if (from_start) instants.insert(instants.begin(), {first.time, segment});
     for (FilmSegment& one : all.pictures.segments) one.kind = FilmSegment::Kind::motion;
     for (const auto& member : all.members) {
         if (has_all(*member, all.pictures)) continue;
-        const double shown = member->source().moments(all.pictures).front().time;
+        const double shown = member->source().moments(all.pictures).back().time;
         all.warnings.push_back(
             fmt::format("--at: {:.6g} s was not kept ({}); {:.6g} s is drawn of {}, the "
                         "kept moment that is nearest",

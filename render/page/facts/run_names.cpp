@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -11,6 +12,7 @@
 #include "engine/base/text.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -57,9 +59,11 @@ std::string value_text(const std::string& key, const std::string& value) {
     const double number = std::strtod(value.c_str(), &end);
     if (*end != '\0') return value;
     const Key* known = find_key(path_of(key), filmed_scene_keys());
-    const bool has_unit = known != nullptr && known->dimension != Dimension::number;
-    return fmt::format("{:.4g}{}", number,
-                       has_unit ? fmt::format(" {}", text_of(known->dimension).unit) : "");
+    if (known == nullptr || known->dimension == Dimension::number) return fmt::format("{:.4g}", number);
+    if (known->dimension != Dimension::length)
+        return fmt::format("{:.4g} {}", number, text_of(known->dimension).unit);
+    const std::string unit = fitting_unit(std::abs(number), Dimension::length);
+    return fmt::format("{:.4g} {}", number / unit_size(unit, Dimension::length), unit);
 }
 
 // Name and values of each key that differs. Keys with the same name and the same values are listed once.
@@ -159,6 +163,46 @@ std::map<std::string, std::string> keys_of_file(const std::filesystem::path& fil
 
 }  // namespace
 
+namespace {
+
+// The entries between the braces of an inline table, "width = 0.018" and so on.
+std::vector<std::string> entries_of(std::string_view table) {
+    std::vector<std::string> entries(1);
+    int depth = 0;
+    bool quoted = false;
+    for (const char c : table.substr(1, table.size() - 2)) {
+        if (c == '"') quoted = !quoted;
+        if (!quoted && (c == '{' || c == '[')) ++depth;
+        if (!quoted && (c == '}' || c == ']')) --depth;
+        if (c == ',' && depth == 0 && !quoted)
+            entries.emplace_back();
+        else
+            entries.back() += c;
+    }
+    return entries;
+}
+
+// Gives each entry of an inline table a key of its own: "container.outlet.width". A range stays one value.
+void open_inline_tables(std::map<std::string, std::string>& keys) {
+    std::map<std::string, std::string> opened;
+    for (const auto& [key, value] : keys) {
+        const bool is_table = value.size() > 2 && value.front() == '{' && value.back() == '}';
+        if (!is_table || trimmed(std::string_view(value).substr(1)).starts_with("min")) {
+            opened[key] = value;
+            continue;
+        }
+        for (const std::string& entry : entries_of(value)) {
+            const std::size_t equals = std::min(entry.find('='), entry.size());
+            const std::string name(trimmed(std::string_view(entry).substr(0, equals)));
+            if (equals < entry.size())
+                opened[key + "." + name] = std::string(trimmed(std::string_view(entry).substr(equals + 1)));
+        }
+    }
+    keys = std::move(opened);
+}
+
+}  // namespace
+
 std::map<std::string, std::string> keys_of_scene(std::string_view text) {
     std::map<std::string, std::string> keys;
     std::map<std::string, int> tables;  // for each [[name]], how many there were so far
@@ -180,6 +224,7 @@ std::map<std::string, std::string> keys_of_scene(std::string_view text) {
             keys[last] += std::string(line);  // the value continues on this line
         }
     }
+    open_inline_tables(keys);
     return keys;
 }
 

@@ -34,6 +34,9 @@ class SideBySide {
     const Picture& draw(const std::vector<ShotPtr>& frames, std::size_t segment = 0, std::size_t clock = 0,
                         double film_time = 0);
 
+    // The pictures count heights at the start from these frames, and not from the first that is drawn.
+    void start_from(const std::vector<ShotPtr>& frames);
+
     // Draws the same on a page of PDF, its words as text.
     void draw_page(PdfPage& page, const std::vector<ShotPtr>& frames, std::size_t segment, std::size_t clock,
                    double film_time);

@@ -254,6 +254,23 @@ TEST_F(CompareProgram, AtDrawsOneMoment) {
     EXPECT_FALSE(fs::exists(here / "far"));
 }
 
+// A still counts heights at the start as the film does, from the film's first picture.
+TEST_F(CompareProgram, AStillHasTheStartHeightsOfTheFilm) {
+    const std::string by_height = "film.colour={by=\"start-height\"}";
+    ASSERT_EQ(
+        program({"compare", "weak.toml", "strong.toml", "--frames", "--set", by_height, "--out", "film"})
+            .status,
+        0);
+    const Ended still = program({"compare", "film/weak", "film/strong", "--at", "0.1", "--out", "still"});
+    ASSERT_EQ(still.status, 0) << still.err;
+    const Ended other = program({"compare", "film/weak", "film/strong", "--at", "0", "--out", "first"});
+    ASSERT_EQ(other.status, 0) << other.err;
+    const auto record = record_of(here / "still")["drawn"][0];
+    EXPECT_EQ(record["first_s"], 0.0);
+    EXPECT_NEAR(record["last_s"].get<double>(), 0.1, 1e-3);
+    EXPECT_EQ(record_of(here / "first")["drawn"][0]["last_s"], 0.0);
+}
+
 // A caption that a scene has for its own drive is not shown over a panel with another drive.
 TEST_F(CompareProgram, CaptionsOfOneValueAreLeftOutBesideOthers) {
     write_text(here / "told.toml",
