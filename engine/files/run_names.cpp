@@ -134,7 +134,7 @@ bool is_checkpoint_of_ring(const fs::path& name) {
 bool is_in_also(const fs::path& name) {
     constexpr std::array<std::string_view, 8> endings{".vtp", ".vti", ".pvd",  ".nc",
                                                       ".xyz", ".csv", ".dump", ".data"};
-    constexpr std::array<std::string_view, 6> more{".stl", ".gsd", ".glb", ".json", ".bin", ".py"};
+    constexpr std::array<std::string_view, 7> more{".vtkhdf", ".stl", ".gsd", ".glb", ".json", ".bin", ".py"};
     const auto known = [&](const auto& list) {
         return std::any_of(list.begin(), list.end(),
                            [&](std::string_view ending) { return name.extension() == ending; });

@@ -103,6 +103,26 @@ TEST_F(Foreign, UnitsBecomeSi) {
     EXPECT_NEAR(frame.time, 0.01, 1e-15);
 }
 
+TEST_F(Foreign, UnitsOfMillimetresGramsAndSeconds) {
+    write(file("m.dump"), dump(10, "id type x y z radius vx vy vz density", {"1 1 1 2 3 0.5 5 0 0 2.5e-3"}));
+    ReadingOptions options;
+    options.units = "mm";
+    const ForeignArchive archive(file("m.dump"), options);
+    const State frame = archive.grains(0);
+    EXPECT_NEAR((frame.position[0] - Vec3(0.001, 0.002, 0.003)).norm(), 0, 1e-17);
+    EXPECT_DOUBLE_EQ(frame.radius[0], 0.0005);
+    EXPECT_DOUBLE_EQ(frame.velocity[0].x(), 0.005);
+    EXPECT_NEAR(archive.world().species[0].density, 2500, 1e-9);
+}
+
+// What `render` made of files lies in a folder with tables that are no grains.
+TEST_F(Foreign, AFolderOfAFilmIsRefused) {
+    std::filesystem::create_directory(file("post-render"));
+    write(file("post-render/run.json"), "{}");
+    write(file("post-render/film_times.csv"), "frame,step,time_s\n0,1,2\n");
+    EXPECT_THAT(message_of(file("post-render")), HasSubstr("a film alone"));
+}
+
 TEST_F(Foreign, ANumberedSeriesIsReadByItsNumbers) {
     for (const int step : {0, 500, 10000})
         write(file(fmt::format("s.{}.dump", step)),

@@ -73,8 +73,12 @@ std::vector<fs::path> files_named(const std::string& name) {
     const fs::path path = name;
     std::error_code ignored;
     if (is_pattern(path)) return without_passed_over(files_of_pattern(path));
-    if (fs::is_directory(path, ignored)) return without_passed_over(files_in(path));
-    return {path};
+    if (!fs::is_directory(path, ignored)) return {path};
+    if (fs::exists(path / "film_times.csv", ignored) && fs::exists(path / "run.json", ignored))
+        throw UserError(fmt::format(
+            "{}: is the folder of a film alone; give the files, or the run, that it was drawn from",
+            path.string()));
+    return without_passed_over(files_in(path));
 }
 
 }  // namespace

@@ -192,6 +192,7 @@ const std::vector<UnitSystem>& systems() {
         {"si", 1, 1, 1, true},
         {"lj", 1, 1, 1, false},
         {"cgs", 1e-2, 1, 1e-3, true},
+        {"mm", 1e-3, 1, 1e-3, true},
         {"micro", 1e-6, 1e-6, 1e-15, true},
         {"nano", 1e-9, 1e-9, 1e-21, true},
         {"real", 1e-10, 1e-15, dalton, true},

@@ -48,8 +48,8 @@ struct UnitSystem {
     double pressure() const { return mass / (length * time * time); }
 };
 
-// The system "si", "lj", "cgs", "micro", "nano", "real" or "metal" (LAMMPS manual, command `units`); none for
-// another name.
+// The system "si", "lj", "cgs", "micro", "nano", "real" or "metal" (LAMMPS manual, command `units`), or "mm":
+// mm, g and s. None for another name.
 std::optional<UnitSystem> unit_system(const std::string& name);
 std::vector<std::string> unit_names();
 

@@ -211,7 +211,8 @@ void add_reading(CLI::App& verb, ReadingOptions& reading) {
         [](ReadingOptions& to, const std::string& text) {
             to.time_step = positive_quantity("--time-step", text, Dimension::time, "1e-6");
         });
-    add("--units", "NAME", "Units of the file: si, lj, cgs, micro, nano, real, metal [as it says, else si]",
+    add("--units", "NAME",
+        "Units of the file: si, lj, cgs, mm (with g and s), micro, nano, real, metal [as it says, else si]",
         set_units);
     add("--species", "TYPE=NAME,...", "Names of the types, as in 1=small,2=big",
         [](ReadingOptions& to, const std::string& text) {

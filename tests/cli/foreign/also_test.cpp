@@ -1,6 +1,7 @@
 // Tests of [output] also: a run's folder gets formats of other programs when the run ends, however it ends.
 #include <signal.h>
 
+#include <fmt/format.h>
 #include <algorithm>
 
 #include <gmock/gmock.h>
@@ -8,6 +9,7 @@
 
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/state_writer.hpp"
+#include "engine/files/run_names.hpp"
 #include "engine/scene/output.hpp"
 #include "tests/cli/mesh_scene.hpp"
 #include "tests/cli/program.hpp"
@@ -78,6 +80,14 @@ TEST(AlsoFormats, AreThoseThatAreWritten) {
     EXPECT_THAT(listed, testing::UnorderedElementsAreArray(written));
 }
 
+// Else --force would not replace a run that has such a file.
+TEST(AlsoFormats, FilesOfAllFormatsAreKnownAsThoseOfRuns) {
+    for (const WriteFormat& format : frame_formats()) {
+        const std::string ending = format.ending;
+        EXPECT_TRUE(ending.starts_with('-') || is_in_also("bed" + ending)) << format.name;
+    }
+}
+
 TEST_F(Also, ARunLeavesEachFormat) {
     std::string list;
     for (const std::string_view name : kAlsoFormats)
@@ -85,9 +95,9 @@ TEST_F(Also, ARunLeavesEachFormat) {
     const Ended ended =
         run(movie(with("also = [" + list + "]\ncontacts = true\n"), {"--set", "run.duration=0.05"}));
     ASSERT_EQ(ended.status, 0) << ended.err;
-    EXPECT_EQ(
-        names(),
-        "blender csv.csv gltf.glb gsd.gsd lammps-data.data lammps-dump.dump netcdf.nc stl.stl vtk vtkhdf.vtkhdf xyz.xyz");
+    EXPECT_EQ(names(),
+              "blender csv.csv gltf.glb gsd.gsd lammps-data.data lammps-dump.dump netcdf.nc stl.stl vtk "
+              "vtkhdf.vtkhdf xyz.xyz");
     for (const char* inside :
          {"vtk/grains.pvd", "gsd.gsd", "xyz.xyz", "csv.csv", "lammps-dump.dump", "netcdf.nc"})
         expect_like_run(inside);
