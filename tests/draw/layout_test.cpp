@@ -191,6 +191,15 @@ TEST(Layout, AWideVesselHasItsWordsInOneRow) {
     EXPECT_EQ(layout.first.y, layout.second.y);
 }
 
+TEST(Layout, PlatesStandAtTheSides) {
+    FilmedScene scene = scene_of(640, 480, {0, 2});
+    scene.film.words = WordPlace::plates;
+    const PictureLayout layout = plan_layout(scene);
+    EXPECT_TRUE(layout.plates);
+    EXPECT_LT(layout.first.width, scene.film.width / 2);
+    EXPECT_LT(layout.second.width, scene.film.width / 2);
+}
+
 TEST(Layout, LettersShrinkBeforeWordsAreLeftOut) {
     const FilmedScene roomy = scene_of(1920, 1080, {0, 2});
     const double whole = type_scale(roomy.film).main;

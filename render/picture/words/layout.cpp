@@ -335,6 +335,12 @@ void take_better(const FilmedScene& scene, std::optional<Judged>& best, Judged h
     if (!best || says_more(here, *best) || here.size > best->size) best = std::move(here);
 }
 
+// Whether words lie on plates over the picture.
+bool on_plates(const Film& film) {
+    return film.words == WordPlace::plates ||
+           (film.words == WordPlace::automatic && film.camera.framed_by_user());
+}
+
 Judged best_layout(const FilmedScene& scene) {
     constexpr double nearly = 0.93;  // a container so much smaller than the largest one is not worth a search
     const Palette palette = make_palette(scene.film.background);
@@ -353,6 +359,8 @@ Judged best_layout(const FilmedScene& scene) {
         const Writer measure{nullptr, empty.type, palette};
         for (const Way way : ways) {
             if (begins_below(way) && !cut) continue;
+            // Plates over the picture hide least of it at its sides.
+            if (on_plates(scene.film) && way != Way::sides && best && best->fits) continue;
             if (best && best->fits && best->layout.left_out.empty() && best->size > nearly * largest * last)
                 return *best;
             for (PictureLayout& layout : laid_out(scene, empty, measure, way))
@@ -365,8 +373,7 @@ Judged best_layout(const FilmedScene& scene) {
 }  // namespace
 
 PictureLayout plan_layout(const FilmedScene& scene) {
-    const WordPlace words = scene.film.words;
-    if (words == WordPlace::none) return bare_layout(scene.film);
+    if (scene.film.words == WordPlace::none) return bare_layout(scene.film);
     Judged best = best_layout(scene);
     if (!best.fits) {
         PictureLayout bare = bare_layout(scene.film);
@@ -374,8 +381,7 @@ PictureLayout plan_layout(const FilmedScene& scene) {
         return bare;
     }
     PictureLayout& layout = best.layout;
-    layout.plates =
-        words == WordPlace::plates || (words == WordPlace::automatic && scene.film.camera.framed_by_user());
+    layout.plates = on_plates(scene.film);
     if (layout.plates) layout.port = {0, 0, scene.film.width, scene.film.height - layout.caption.height};
     return layout;
 }
