@@ -46,7 +46,7 @@ std::string rate_text(const Estimate& rate) {
     if (!std::isfinite(rate.half_width))
         return fmt::format("{:.4g} kg/s (no interval: {})", rate.value, rate.why);
     if (!(rate.half_width > 1e-12)) return fmt::format("{:.4g} kg/s", rate.value);
-    const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(rate.half_width))));
+    const int decimals = std::max(0, 1 - static_cast<int>(std::floor(math::log10(rate.half_width))));
     return fmt::format("{:.{}f} ± {:.{}f} kg/s", rate.value, decimals, rate.half_width, decimals);
 }
 

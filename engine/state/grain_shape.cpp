@@ -28,6 +28,7 @@ bool is_possible(const GrainShape& shape) {
 }
 
 double radius_by_volume(const GrainShape& shape) {
+    if (shape.along == 2 && shape.around == 2) return math::cbrt(shape.half.prod());
     const auto beta_function = [](double x, double y) {
         return math::exp(log_gamma(x) + log_gamma(y) - log_gamma(x + y));
     };

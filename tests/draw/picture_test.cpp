@@ -327,7 +327,7 @@ TEST(Pictures, NoWordIsCutOff) {
             EXPECT_TRUE(blank({r.x + r.width - 1, r.y, 1, r.height})) << width << "x" << height << " right";
         }
         if (width == 1920) {
-            EXPECT_TRUE(layout.left_out.empty());
+            EXPECT_EQ(layout.left_out, std::vector<std::string>());
         }
         if (width * height < 240 * 200) {
             EXPECT_EQ(layout.left_out, std::vector<std::string>{"words"});

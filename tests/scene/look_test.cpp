@@ -228,7 +228,9 @@ TEST(Look, ProfilesStandInPlaceOfColumns) {
     const FilmPlot smooth = plots("[[film.plot]]\ny = \"lacey\"\nsmooth = \"period\"\n").at(0);
     EXPECT_TRUE(rows.period) << "with a drive, a plot is smooth";
     EXPECT_TRUE(smooth.period);
-    EXPECT_FALSE(plots("[[film.plot]]\ny = \"lacey\"\n[run]\nduration = \"0.05 s\"\n").at(0).period)
+    EXPECT_FALSE(read_text(with(wedge_text, "\"2 s\"", "\"0.05 s\"") + "[[film.plot]]\ny = \"lacey\"\n")
+                     .film.shows.plots.at(0)
+                     .period)
         << "a run that is shorter than three periods has no mean over one";
     EXPECT_FALSE(plots("[[film.plot]]\ny = \"lacey\"\nsmooth = \"none\"\n").at(0).period);
     EXPECT_EQ(smooth.label, rows.label);

@@ -154,10 +154,11 @@ Exported export_frames(const StateArchive& frames, const std::string& format, co
     check_free(path, replace);
     const std::vector<std::size_t> wanted = chosen(frames, choice);
     const PartName part(path);
-    std::vector<std::string> news = frames.news_of_frames();
+    std::vector<std::string> news;
     try {
         const std::unique_ptr<StateWriter> writer = frame_writer(format, part.path());
         write_all(frames, wanted, *writer, watcher);
+        news = frames.news_of_frames();  // it is known when all frames were read
         for (const std::string& line : writer->news()) news.push_back(part.renamed(line, path));
     } catch (const RunError& error_of_part) {
         throw RunError(part.renamed(error_of_part.what(), path));

@@ -203,8 +203,9 @@ FirstPart column_part(const Writer& writer, const Blocks& blocks, double inner, 
                std::min(room - below, std::max(room - below - after, least)), part);
     upper.add(writer, "colour bar", type.gap, blocks.colour_bar(inner));
     upper.add(writer, "marks", type.gap, blocks.marks(inner));
-    const bool axes_fit = upper.end() + height(axes) <= room - below;
-    if (axes_fit) below += height(axes);
+    const double of_axes = height(arrows) > 0 ? height(axes) : with_gap(height(axes));
+    const bool axes_fit = upper.end() + of_axes <= room - below;
+    if (axes_fit) below += of_axes;
     const bool endless = room >= endless_room;
     Column lower(x, endless ? upper.end() + type.gap : room - below, room, part);
     if (axes_fit)
