@@ -102,7 +102,7 @@ double farthest_from_axis(const Container& c, const BodyTurn& turn) {
     return farthest;
 }
 
-// Of the species of which grains come.
+// m: the smallest diameter of the species that have grains, at the start or later.
 double smallest_that_comes(const Scene& scene) {
     double smallest = std::numeric_limits<double>::infinity();
     for (const Species& species : scene.species)

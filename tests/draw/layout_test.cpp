@@ -150,9 +150,9 @@ TEST(Layout, TheVesselIsLargeInWideSquareAndUprightPictures) {
         {"teaching_sorting", "720x1280", 0.3},
         {"teaching_gas_cooling", "640x640", 0.36},
         {"teaching_changing_drive", "720x1280", 0.3},
-        {"gravel", "854x480", 0.63},
-        {"gravel", "640x640", 0.31},
-        {"gravel", "720x1280", 0.39},
+        {"gravel", "854x480", 0.65},  // gravel without its captions
+        {"gravel", "640x640", 0.5},
+        {"gravel", "720x1280", 0.43},
         {"poured_heap", "854x480", 0.48},
         {"teaching_friction_and_rolling", "854x480", 0.38},
         {"teaching_friction_and_rolling", "640x480", 0.36},
@@ -160,7 +160,9 @@ TEST(Layout, TheVesselIsLargeInWideSquareAndUprightPictures) {
     };
     for (const auto& [name, size, least] : all) {
         const std::string file = std::string(GRAINREEL_SOURCE "/scenes/") + name + ".toml";
-        const FilmedScene scene = read_filmed_scene(file, {std::string("film.size=") + size}, measurable_in);
+        std::vector<std::string> settings = {std::string("film.size=") + size};
+        if (std::string(name) == "gravel") settings.emplace_back("film.caption=[]");
+        const FilmedScene scene = read_filmed_scene(file, settings, measurable_in);
         const PictureLayout layout = plan_layout(scene);
         const SeenBox box = seen_box(scene, layout);
         EXPECT_GE(box.area(), least) << name << ", " << size;

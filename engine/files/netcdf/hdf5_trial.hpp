@@ -12,7 +12,7 @@ namespace grainreel {
 
 inline constexpr std::string_view kHdf5Signature("\x89HDF\r\n\x1a\n");
 
-// Whoever calls the HDF5 library holds this, because the library has one state for all files.
+// Each caller of the HDF5 library holds this lock, because the library has one state for all files.
 std::mutex& hdf5_library();
 
 bool is_hdf5(const std::filesystem::path& file);
