@@ -6,6 +6,8 @@
 RUN is a finished run in a box, seen at one phase of the drive. Prints for its last N periods:
   inverted    share of the surface's shape that changes its sign from each period to the next; by chance 1/N
   wavelength  of the ring in the spectrum of that part of the surface
+  waves       strongest whole number of waves to the box, with Hann's window: so were the pictures of figure 1 of Bizon et
+              al. 1998 measured (docs/phenomena/layer_patterns.md)
   M2, M4, M6  |sum of P(a) exp(i n a)| / sum of P(a), of the power P of waves of that length in the direction a, in 25
               places with a Gaussian window of 0.6 wavelengths; and what ideal stripes, squares and hexagons have:
               M2 is largest for stripes, M4 is larger than M2 and M6 for squares, and M6 for hexagons
@@ -107,6 +109,16 @@ def ring(power, least):
     return sum(k * value for k, value in near) / sum(value for _, value in near)
 
 
+def whole_waves(power):
+    """The strongest whole number of waves to the box, from 2 on; `power` at whole wave numbers."""
+    shells = {}
+    for (p, q), value in power.items():
+        shell = math.floor(math.hypot(p, q) + 0.5)
+        if shell >= 2:
+            shells[shell] = shells.get(shell, 0) + value
+    return max(shells, key=shells.get)
+
+
 def local_angles(part, cells, wavelength, at, directions=36, reach=0.6):
     """Power at the wavelength against the direction of the wave, 0 to 180 degrees, around a place; lengths in cells."""
     spread, k = reach * wavelength, 2 * math.pi / wavelength
@@ -162,6 +174,7 @@ class Pattern:
         power = spectrum(self.part, self.cells, most=12)
         k = ring(power, least=2)
         self.wavelength = min(width, depth) / k
+        self.waves = whole_waves(spectrum(self.part, self.cells, most=12, fine=1))
         self.orders = local_orders(self.part, self.cells, self.cells / k)
         self.ideals = {name: local_orders(ideal(waves, self.cells, self.cells / k), self.cells, self.cells / k)
                        for name, waves in (("stripes", 1), ("squares", 2), ("hexagons", 3), ("no order", 40))}
@@ -180,7 +193,7 @@ def main():
     pattern = Pattern(Fields(options.run / "trajectory.nc"), options.size, options.size, options.periods, options.phase,
                       options.until, options.every_second)
     print(f"{'repeated' if options.every_second else 'inverted'} {pattern.share:.3f}  rms {1000 * pattern.rms:.3f} mm  "
-          f"wavelength {1000 * pattern.wavelength:.2f} mm  skewness {pattern.skewness:.2f}")
+          f"wavelength {1000 * pattern.wavelength:.2f} mm  waves {pattern.waves}  skewness {pattern.skewness:.2f}")
     for name, orders in {"here": pattern.orders, **pattern.ideals}.items():
         print(f"{name:<9}M2 {orders[0]:.2f}  M4 {orders[1]:.2f}  M6 {orders[2]:.2f}")
     if options.map:
