@@ -10,6 +10,7 @@ Bizon et al. 1998 were measured (docs/phenomena/layer_patterns.md).
 """
 import argparse
 import csv
+import math
 import sys
 import tomllib
 from pathlib import Path
@@ -24,9 +25,10 @@ COLUMNS = ("share", "rms_mm", "wavelength_mm", "waves", "skewness", "M2", "M4", 
 def looked_at(folder, periods):
     """The values of COLUMNS of one run."""
     scene = tomllib.loads((folder / "scene.toml").read_text(encoding="utf-8"))
-    tray = scene["container"]
+    tray, drive = scene["container"], scene["drive"]
+    g_level = drive["amplitude"] * (2 * math.pi * drive["frequency"])**2 / 9.81
     pattern = Pattern(Fields(folder / "trajectory.nc"), tray["width"], tray["depth"], periods,
-                      every_second=scene["drive"]["g_level"] >= 3.5)
+                      every_second=g_level >= 3.5)
     return [f"{pattern.share:.3f}", f"{1000 * pattern.rms:.3f}", f"{1000 * pattern.wavelength:.2f}", pattern.waves,
             f"{pattern.skewness:.2f}", *(f"{order:.2f}" for order in pattern.orders)]
 
