@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <mutex>
+#include <numbers>
 #include <string_view>
 
 #include "engine/base/counted.hpp"
@@ -24,14 +24,11 @@ namespace grainreel {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double pi = 3.14159265358979323846;
-
 // The library's fill values by the number of a type; NaN for types that are not numbers.
 double usual_fill(int type) {
-    constexpr std::array<double, 12> fills{nothing,
+    constexpr std::array<double, 12> fills{kUnknown,
                                            NC_FILL_BYTE,
-                                           nothing,
+                                           kUnknown,
                                            NC_FILL_SHORT,
                                            NC_FILL_INT,
                                            NC_FILL_FLOAT,
@@ -41,7 +38,7 @@ double usual_fill(int type) {
                                            NC_FILL_UINT,
                                            static_cast<double>(NC_FILL_INT64),
                                            static_cast<double>(NC_FILL_UINT64)};
-    return type >= 0 && type < static_cast<int>(fills.size()) ? fills[type] : nothing;
+    return type >= 0 && type < static_cast<int>(fills.size()) ? fills[type] : kUnknown;
 }
 
 // A variable of numbers. per_frame and per_grain tell whether it has the dimensions of frames and of grains;
@@ -53,7 +50,7 @@ struct AmberVariable {
     std::size_t components = 1;
     bool single = true;  // it has no dimension of components, not even one of length 1
     double scale = 1;    // scale_factor
-    double fill = 0;     // the value where nothing was written
+    double fill = 0;     // the value where kUnknown was written
 };
 
 // The program that wrote the file, with its version, as it says.
@@ -68,9 +65,6 @@ class AmberFile : public RawFile {
     // Throws UserError when the file cannot be read or has no places of grains.
     explicit AmberFile(const std::filesystem::path& file);
 
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
-    std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t index) const override;
     // Reads a frame for a caller that already holds the lock.
     RawFrame frame_at(std::size_t index) const;
@@ -98,19 +92,15 @@ class AmberFile : public RawFile {
     void find_units();
     bool too_dense_for_atoms() const;
 
-    std::filesystem::path file_;
     NetcdfFile netcdf_;
     std::size_t frames_ = 1;    // number of whole frames in the file
     std::size_t declared_ = 1;  // number of frames that its header says
     std::size_t grains_ = 0;    // number of places for grains in a frame
     std::size_t places_ = 0;    // which variable has them
     std::vector<AmberVariable> variables_;
-    RawFacts facts_;
-    std::vector<RawMoment> moments_;
-    std::vector<std::string> news_;
 };
 
-AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), netcdf_(NetcdfFile::open_any(file)) {
+AmberFile::AmberFile(const std::filesystem::path& file) : RawFile(file), netcdf_(NetcdfFile::open_any(file)) {
     facts_.format = "AMBER NetCDF";
     facts_.program = program_of(netcdf_);
     if (!netcdf_.has_variable("coordinates") && !netcdf_.has_variable("unwrapped_coordinates"))
@@ -298,7 +288,7 @@ std::optional<WorldCell> AmberFile::box_of(std::size_t frame) const {
         triple("cell_angles", frame).value_or(std::array<double, 3>{90, 90, 90});
     std::array<double, 3> cosines{};
     for (std::size_t i = 0; i < 3; ++i)
-        cosines[i] = angles[i] == 90 || angles[i] == 0 ? 0.0 : math::cos(angles[i] * pi / 180);
+        cosines[i] = angles[i] == 90 || angles[i] == 0 ? 0.0 : math::cos(angles[i] * std::numbers::pi / 180);
     const auto [a, b, c] = *lengths;
     const double sine = std::sqrt(std::max(0.0, 1 - cosines[2] * cosines[2]));
     const double cy = sine > 0 ? (cosines[0] - cosines[1] * cosines[2]) / sine : 0.0;
@@ -322,7 +312,7 @@ void AmberFile::add_columns(RawTable& grains, const AmberVariable& variable, std
         column.values.reserve(grains.rows);
         for (std::size_t i = 0; i < grains.rows; ++i) {
             const double value = values[i * variable.components + k];
-            column.values.push_back(value == variable.fill && !is_place ? nothing : value * variable.scale);
+            column.values.push_back(value == variable.fill && !is_place ? kUnknown : value * variable.scale);
         }
         grains.columns.push_back(std::move(column));
     }
@@ -383,21 +373,6 @@ bool takes_amber(const FileStart& head) {
            bytes.starts_with(kHdf5Signature);
 }
 
-// Opens a file of HDF5 and reads all of it in a child process, where a crash does no harm.
-void try_hdf5(const std::filesystem::path& file) {
-    const auto read_all = [&] {
-        const AmberFile one(file);
-        for (std::size_t i = 0; i < one.moments().size(); ++i) one.frame_at(i);
-    };
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    const auto seconds =
-        static_cast<unsigned>(std::min<std::uintmax_t>(30 + (error ? 0 : size) / 5000000, 3600));
-    if (!survives(read_all, seconds))
-        throw UserError(fmt::format(
-            "{}: is a damaged HDF5 file, on which the HDF5 library fails; copy it again", file.string()));
-}
-
 }  // namespace
 
 // Also called for files of HDF5 that are not H5MD.
@@ -406,7 +381,11 @@ std::unique_ptr<RawFile> open_amber(const std::filesystem::path& file) {
         throw UserError(
             fmt::format("{}: a NetCDF file is not read while it is packed; unpack it", file.string()));
     const std::lock_guard lock(hdf5_library());
-    if (is_hdf5(file)) try_hdf5(file);
+    if (is_hdf5(file))
+        try_in_child(file, [&] {
+            const AmberFile one(file);
+            for (std::size_t i = 0; i < one.moments().size(); ++i) one.frame_at(i);
+        });
     return std::make_unique<AmberFile>(file);
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "engine/base/error.hpp"
 #include "engine/files/damage.hpp"

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 
 #include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"

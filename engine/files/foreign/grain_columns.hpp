@@ -46,7 +46,6 @@ class GrainMeaning {
                  std::string file);
 
     bool has_ids() const { return id_.has_value(); }
-    bool has_types() const { return type_.has_value(); }
     bool has_velocities() const { return velocity_[0] && velocity_[1]; }
     // Discs in a plane turn about z alone.
     bool has_spins() const { return spin_[2] && (flat_ || (spin_[0] && spin_[1])); }

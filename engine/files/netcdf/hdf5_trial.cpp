@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -13,6 +14,7 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/base/word_reader.hpp"
 
 namespace grainreel {
 
@@ -72,14 +74,19 @@ void check_hdf5(const std::filesystem::path& file) {
         throw UserError(fmt::format("{}: is cut off: it has {} bytes of {}; copy it again", name, size, end));
 }
 
-bool survives(const std::function<void()>& work, unsigned seconds) {
+void try_in_child(const std::filesystem::path& file, const std::function<void()>& read_all) {
+    constexpr std::uintmax_t least = 30, most = 3600, bytes_a_second = 5000000;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    const std::uintmax_t seconds = std::min(least + (error ? 0 : size) / bytes_a_second, most);
     const pid_t child = ::fork();
-    if (child < 0) return true;
-    if (child == 0) work_alone(work, seconds);
+    if (child < 0) return;
+    if (child == 0) work_alone(read_all, static_cast<unsigned>(seconds));
     int status = 0;
     while (::waitpid(child, &status, 0) < 0)
-        if (errno != EINTR) return true;
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        if (errno != EINTR) return;
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        refuse_file(file, "is a damaged HDF5 file, on which the HDF5 library fails; copy it again");
 }
 
 }  // namespace grainreel

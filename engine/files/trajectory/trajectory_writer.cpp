@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <netcdf.h>
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 
@@ -210,26 +211,20 @@ void TrajectoryWriter::Impl::write_turn(const State& frame, Checksum& sum) {
 }
 
 void TrajectoryWriter::Impl::write_bodies(const State& frame, Checksum& sum) {
-    const std::size_t count = info.bodies.size();
-    const TrajectoryVariable* variable = body_variables.data();
-    const auto put = [&](std::size_t width, const auto& of) {
-        std::vector<double> rows;
-        for (std::size_t b = kFirstPlaneBody; b < frame.bodies.size(); ++b) {
-            const auto& numbers = of(frame.bodies[b]);
-            rows.insert(rows.end(), numbers.data(), numbers.data() + width);
-        }
-        file.put(variables[variable->name], {frames, 0, 0}, {1, count, width}, rows.data());
-        sum.add(rows.data(), rows.size());
-        ++variable;
+    std::array<std::vector<double>, body_variables.size()> values;
+    const auto add = [&](std::size_t k, const auto& numbers) {
+        values[k].insert(values[k].end(), numbers.begin(), numbers.end());
     };
-    put(
-        3, [](const BodyPose& pose) -> const auto& { return pose.place; });
-    put(
-        4, [](const BodyPose& pose) -> const auto& { return pose.rotation.coeffs(); });
-    put(
-        3, [](const BodyPose& pose) -> const auto& { return pose.velocity; });
-    put(
-        3, [](const BodyPose& pose) -> const auto& { return pose.spin; });
+    for (std::size_t b = kFirstPlaneBody; b < frame.bodies.size(); ++b) {
+        const BodyPose& pose = frame.bodies[b];
+        add(0, pose.place), add(1, pose.rotation.coeffs()), add(2, pose.velocity), add(3, pose.spin);
+    }
+    const std::size_t count = info.bodies.size();
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        file.put(variables[body_variables[k].name], {frames, 0, 0}, {1, count, values[k].size() / count},
+                 values[k].data());
+        sum.add(values[k].data(), values[k].size());
+    }
 }
 
 // of(grain, component) gives the values of grains for which there(grain) is true; the others get those of

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/base/number_text.hpp"
-#include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 
 namespace grainreel {

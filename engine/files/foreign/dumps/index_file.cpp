@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <mutex>
 
@@ -89,16 +88,13 @@ OldColumns old_columns(LineReader& lines, const std::filesystem::path& file, con
 
 class LammpsText : public RawFile {
   public:
-    explicit LammpsText(const fs::path& file) : file_(file), packing_(packing_of(file)), growth_(file) {
+    explicit LammpsText(const fs::path& file) : RawFile(file), packing_(packing_of(file)), growth_(file) {
         refuse_yaml();
         find_frames();
         if (index_.frames.empty()) refuse_without_frame();
         if (index_.names.empty()) name_columns();
         update();
     }
-
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
 
     RawFrame read(std::size_t index) const override {
         const DumpFrame& frame = index_.frames.at(index);
@@ -126,13 +122,10 @@ class LammpsText : public RawFile {
     RawFrame read_frame(LineReader& lines, const DumpFrame& frame) const;
     std::string cut_words() const;
 
-    fs::path file_;
     Packing packing_;
     Growth growth_;
     TextIndex index_;
     OldColumns old_;  // only for files without names
-    RawFacts facts_;
-    std::vector<RawMoment> moments_;
     mutable std::mutex reading_;
     mutable std::unique_ptr<LineReader> kept_;
 };

@@ -4,7 +4,6 @@
 // is taken as such a row.
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,8 +28,6 @@
 namespace grainreel {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 struct Field {
     const char* key;
@@ -107,9 +104,6 @@ class MercuryRestart : public RawFile {
   public:
     explicit MercuryRestart(const std::filesystem::path& file);
 
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
-    std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t) const override { return frame_; }
 
   private:
@@ -128,7 +122,6 @@ class MercuryRestart : public RawFile {
     void add(const char* column, double value);
     void finish();
 
-    std::filesystem::path file_;
     LineReader lines_;
     TextLine line_;  // the present line
     Part part_ = Part::head;
@@ -138,14 +131,11 @@ class MercuryRestart : public RawFile {
     bool grains_seen_ = false;
     std::vector<double> densities_;        // by species
     std::map<std::string, int> left_out_;  // number of walls that were left out, by kind
-    RawFacts facts_;
     RawFrame frame_;
     WorldCell box_;
-    std::vector<RawMoment> moments_;
-    std::vector<std::string> news_;
 };
 
-MercuryRestart::MercuryRestart(const std::filesystem::path& file) : file_(file), lines_(file) {
+MercuryRestart::MercuryRestart(const std::filesystem::path& file) : RawFile(file), lines_(file) {
     facts_.format = "MercuryDPM restart";
     facts_.program = "MercuryDPM";
     while (lines_.next_with_words(line_))
@@ -306,7 +296,7 @@ void MercuryRestart::take_grain(const RestartLine& line) {
         for (const Field& field : fields_of_keys()) {
             const std::vector<double>* numbers = line.find(field.key, field.columns.size());
             for (std::size_t i = 0; i < field.columns.size(); ++i)
-                add(field.columns[i], numbers ? (*numbers)[i] : nothing);
+                add(field.columns[i], numbers ? (*numbers)[i] : kUnknown);
         }
     }
     ++frame_.grains.rows;
@@ -318,7 +308,7 @@ void MercuryRestart::finish() {
         RawColumn density{"density", {}, {}};
         for (const double one : species->values) {
             const bool known = one >= 0 && one < static_cast<double>(densities_.size());
-            density.values.push_back(known ? densities_[static_cast<std::size_t>(one)] : nothing);
+            density.values.push_back(known ? densities_[static_cast<std::size_t>(one)] : kUnknown);
         }
         grains.columns.push_back(std::move(density));
     }

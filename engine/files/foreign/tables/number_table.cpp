@@ -67,9 +67,6 @@ class NumberTable : public RawFile {
   public:
     explicit NumberTable(const std::filesystem::path& file);
 
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
-    std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t index) const override;
 
   private:
@@ -89,10 +86,7 @@ class NumberTable : public RawFile {
     void name_nameless();
 
     TableLayout layout_;
-    RawFacts facts_;
-    std::vector<RawMoment> moments_;
-    std::vector<std::vector<RowGroup>> runs_;  // the rows of each moment
-    std::vector<std::string> news_;
+    std::vector<std::vector<RowGroup>> runs_;      // the rows of each moment
     std::vector<FrameRows> frames_;                // while they are found: in the order in which they begin
     std::map<double, std::size_t> frame_of_;       // for each time or step: its last frame
     std::optional<std::size_t> time_, step_, id_;  // numbers of these columns
@@ -101,13 +95,12 @@ class NumberTable : public RawFile {
     double last_ = 0;                              // time or step of the last row
     Ranges ranges_;
     mutable std::mutex reading_;
-    std::filesystem::path file_;
     mutable LineReader lines_;
     mutable TextLine line_;  // the present line
     mutable Cells cells_;    // cells of the present row
 };
 
-NumberTable::NumberTable(const std::filesystem::path& file) : file_(file), lines_(file) {
+NumberTable::NumberTable(const std::filesystem::path& file) : RawFile(file), lines_(file) {
     const std::optional<TableLayout> layout = layout_at(unpacked_head(file));
     if (!layout) throw UserError(fmt::format("{}:1: is no table of numbers", file.string()));
     layout_ = *layout;

@@ -1,7 +1,6 @@
 #include "engine/files/foreign/tables/table_layout.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include <fmt/format.h>

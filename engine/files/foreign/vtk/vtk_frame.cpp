@@ -215,7 +215,7 @@ class VtkFile : public RawFile {
   public:
     using Read = VtkContents (*)(const fs::path& file, VtkPart part);
 
-    VtkFile(fs::path file, Read by) : file_(std::move(file)), read_(by) {
+    VtkFile(fs::path file, Read by) : RawFile(std::move(file)), read_(by) {
         const VtkContents contents = read_(file_, VtkPart::cells);
         const VtkCount count = count_of(contents.pieces);
         facts_.format = contents.format;
@@ -232,17 +232,10 @@ class VtkFile : public RawFile {
                             count.lines_left_out));
     }
 
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
     RawFrame read(std::size_t) const override { return frame_of(read_(file_, VtkPart::all)); }
-    std::vector<std::string> news() const override { return news_; }
 
   private:
-    fs::path file_;
     Read read_;
-    RawFacts facts_;
-    std::vector<RawMoment> moments_;
-    std::vector<std::string> news_;
 };
 
 }  // namespace

@@ -162,18 +162,6 @@ void refuse_vtk(const VtkPlace& place, const std::string& what) {
     throw UserError(fmt::format("{}: array \"{}\": {}", text_of(place), excerpt(place.array), what));
 }
 
-void refuse_vtk_line(const fs::path& file, std::int64_t line, const std::string& what) {
-    throw UserError(fmt::format("{}:{}: {}", shown(file), line, what));
-}
-
-void refuse_vtk_byte(const fs::path& file, std::size_t byte, const std::string& what) {
-    throw UserError(fmt::format("{}: byte {}: {}", shown(file), byte, what));
-}
-
-void refuse_vtk_file(const fs::path& file, const std::string& what) {
-    throw UserError(fmt::format("{}: {}", shown(file), what));
-}
-
 std::int64_t line_of_byte(std::string_view text, std::size_t byte) {
     const std::string_view before = text.substr(0, byte);
     return 1 + std::count(before.begin(), before.end(), '\n');

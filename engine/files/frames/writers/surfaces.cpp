@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 
 #include "engine/base/error.hpp"
