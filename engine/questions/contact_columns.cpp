@@ -186,7 +186,9 @@ bool is_meant(const Snapshot& s, int number, std::int32_t other) {
 int touches_column(const Snapshot& snapshot, std::string_view who) {
     if (!snapshot.has(Needs::contacts))
         throw UserError(
-            "'touches' needs contacts, and the run kept none; run it with output.contacts = true");
+            "'touches' needs contacts, and none were kept; run the scene with output.contacts = true, or "
+            "name "
+            "another program's files of contacts by --contacts");
     const std::string name(who);
     std::int32_t id = 0;
     const auto [end, failure] = std::from_chars(who.data(), who.data() + who.size(), id);

@@ -37,7 +37,9 @@ std::string why_lacking(std::string_view name, Needs needs) {
     switch (needs) {
         case Needs::contacts:
             return fmt::format(
-                "'{}' needs contacts, and the run kept none; run it with output.contacts = true", name);
+                "'{}' needs contacts, and none were kept; run the scene with output.contacts = true, or name "
+                "another program's files of contacts by --contacts",
+                name);
         case Needs::forces:
             return fmt::format("'{}' is known only of a moment that is brought back, and this one was not",
                                name);
@@ -100,9 +102,22 @@ std::vector<Needs> needs_of(std::string_view text) {
     return needs;
 }
 
+bool masses_known(const Snapshot& snapshot) {
+    const std::size_t grains = snapshot.frame.size();
+    for (std::size_t i = 0; i < grains; ++i)
+        if (std::isfinite(snapshot.mass(i))) return true;
+    return grains == 0;
+}
+
 std::optional<Vocabulary::Word> GrainVocabulary::find(std::string_view name) const {
     if (const auto k = column_named(name)) {
         const GrainColumn& column = grain_columns()[*k];
+        const bool weighs = column.dimension == Dimension::mass || column.dimension == Dimension::energy;
+        if (weighs && !masses_known(snapshot_))
+            throw UserError(fmt::format(
+                "'{}' needs masses, and these files say no density; give it by --density, in kg/m3 (glass: "
+                "2500)",
+                name));
         if (!snapshot_.has(column.needs)) throw UserError(why_lacking(name, column.needs));
         const ValueType::Kind kind = column.is_species ? ValueType::Kind::species : ValueType::Kind::number;
         return Word{{kind, powers_of(column.dimension)}, std::nullopt, static_cast<int>(*k)};

@@ -65,6 +65,9 @@ class GrainVocabulary final : public Vocabulary {
     const Snapshot& snapshot_;
 };
 
+// Whether the mass of any grain is known. Files of other programs may say no density.
+bool masses_known(const Snapshot& snapshot);
+
 // The grains for which a condition holds. Throws UserError where the expression is no condition.
 GrainList grains_where(const Snapshot& snapshot, const Expression& condition);
 GrainList grains_where(const Snapshot& snapshot, std::string_view text);

@@ -65,12 +65,14 @@ AnswerTable species_table(const Snapshot& s) {
                       true};
     const GrainVocabulary words(s);
     const auto column = [&](const char* name) { return values_of(s, words.find(name)->column); };
-    const auto of_motion = [&](const char* name) {
-        return s.velocities ? column(name)
-                            : std::vector<double>(s.frame.size(), std::numeric_limits<double>::quiet_NaN());
+    const auto if_known = [&](bool known, const char* name) {
+        return known ? column(name)
+                     : std::vector<double>(s.frame.size(), std::numeric_limits<double>::quiet_NaN());
     };
-    const std::vector<double> height = column("height"), rise = column("rise"), speed = of_motion("speed"),
-                              mass = column("mass"), energy = of_motion("kinetic_energy");
+    const bool weighed = masses_known(s);
+    const std::vector<double> height = column("height"), rise = column("rise"),
+                              speed = if_known(s.velocities, "speed"), mass = if_known(weighed, "mass"),
+                              energy = if_known(s.velocities && weighed, "kinetic_energy");
     for (std::size_t k = 0; k < s.scene.species.size(); ++k) {
         const auto of_species = [&](const std::vector<double>& all) {
             std::vector<double> own;

@@ -319,6 +319,12 @@ Estimate slope_estimate(const std::vector<double>& times, const std::vector<doub
 
 std::shared_ptr<const MeasureTable> table_with(const StoredRun& run, const std::string& column) {
     const std::shared_ptr<const MeasureTable> table = run.measures();
+    if (table == nullptr && run.kind() == StoredRun::Kind::foreign)
+        throw UserError(fmt::format(
+            "{}: is of another program, of which there is no measures.csv; --where \"radius > 0\" "
+            "--over-time "
+            "--mean kinetic_energy tells energies over time, and the page of `report` draws kinetic_J",
+            run.path().string()));
     if (table == nullptr)
         throw UserError(
             fmt::format("{}: has no measures.csv with rows; ask a run's folder", run.path().string()));

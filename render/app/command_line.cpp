@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <sstream>
@@ -186,6 +187,14 @@ std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
 
 namespace {
 
+// Whether at least the first three words are files, as a pattern without quotes gives them.
+bool are_files(const char* const* words, int count) {
+    std::error_code none;
+    return count >= 3 && std::all_of(words, words + 3, [&](const char* word) {
+               return std::filesystem::is_regular_file(word, none);
+           });
+}
+
 // What to type, for somebody who named no scene.
 std::string advice_without_scene(const std::string& verb) {
     const std::string call = program_call();
@@ -216,6 +225,13 @@ std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
         if (dynamic_cast<const CLI::RequiredError*>(&mistake) != nullptr &&
             std::string_view(mistake.what()) == "SCENE is required")
             throw UserError(advice_without_scene(app.get_subcommands().front()->get_name()));
+        if (dynamic_cast<const CLI::ExtrasError*>(&mistake) != nullptr && argc > 4 &&
+            are_files(argv + 2, argc - 2))
+            throw UserError(
+                fmt::format("{}: one file or pattern is taken, and the shell made {} files of it; put the "
+                            "pattern in quotes, or give "
+                            "the folder",
+                            argv[1], argc - 2));
         throw UserError(
             fmt::format("{}; see {}", excerpt(mistake.what(), most_of_a_mistake), help_about(app, verbs)));
     }

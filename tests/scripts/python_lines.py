@@ -62,6 +62,17 @@ run.contacts.groupby("time").sum().normal.sizes["time"] >= 1
 run.measures.to_dataframe().index.name == "time"
 run.render(size="160x120", colour=pandas.Series(numpy.arange(50.0), index=pandas.Index(last.id.values, name="id"))).shape[0] == 120
 Path(run.export("csv")).read_text().count(chr(10)) == 1 + 50 * len(run)
+run.render("p.png", size="160x120").shape == (120, 160, 3) and Path("p.png").read_bytes().startswith(b"\\x89PNG")
+run.film("film", size="160x120").path.parent.name == "film"
+len(run.inspect("species == 'big'")["grains"]) == 10
+run.report("rep.html").name == "rep.html" and run.export("vtk", "dir").name == "dir"
+grainreel.compare(run, other, out="pair 2", size="640x360", at=0.1).path.exists()
+last.where("species == big").sizes["atom"] == 10 == last.where('species != "small" and z > 0 mm').sizes["atom"]
+last.where("z > 8 mm").sizes["atom"] == int((last.z > 0.008).sum()) > 0
+abs(last["speed"] - speed).max() < 1e-6 and last.speed.attrs["units"] == "m/s"
+abs(float(last.mass.sum()) - 2500 * 4 / 3 * numpy.pi * float((last.radius.astype(float) ** 3).sum())) < 1e-12
+[float(frame.time) for frame in run.sel(time=slice(0.05 + 1e-9, 0.15 - 1e-9))] == [float(time) for time in run.time[1:4]]
+not hasattr(run, "where") and hasattr(run, "measures")
 """.strip().splitlines()
 
 STUDY = """scene = "scene.toml"

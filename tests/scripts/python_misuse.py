@@ -4,7 +4,9 @@ import json
 import multiprocessing
 import os
 import pickle
+import shutil
 import time
+import warnings
 from pathlib import Path
 
 import grainreel
@@ -71,6 +73,18 @@ def calls(run):
         ("a frame: must be a whole number or a slice", lambda: run["kinetic_J"]),
         ("time: must be a number", lambda: run.sel(time=[0, 1])),
         ("no frame is at", lambda: run.sel(time=0.01, method=None)),
+        ("its frames are from 0 s to 0.2 s", lambda: run.sel(time=99)), ("no frame at -1 s", lambda: run.sel(time=-1)),
+        ("does not look for a frame", lambda: 3 in run), ("nope is not there", lambda: grainreel.Film("nope")),
+        ("film: must be a path", lambda: grainreel.Film(3)), ("is an empty list", lambda: grainreel.compare([])),
+        ("holds itself", lambda: start(ring())), ("below 2,147,483,648", lambda: render(run, frame=10 ** 30)),
+        ("below 2,147,483,648", lambda: inspect(run, grain=10 ** 20)),
+        ("colour: must be a number for each", lambda: render(run, colour=numpy.ones(50) * 1j)),
+        ("time_step: must be one value", lambda: grainreel.open("two.xyz", time_step=[1])),
+        ("species: must be a dict of names", lambda: grainreel.open("two.xyz", species={"x": 1})),
+        ('joined by "and"', lambda: run[-1].where("species == big or z > 1")),
+        ("no specis; did you mean species", lambda: run[-1].where("specis == big")),
+        ("must be a number, with a unit", lambda: run[-1].where("z > 3 parsec")),
+        ("species is a word", lambda: run[-1].where("species > big")),
         ("what: must be", lambda: run.to_dataframe("grain")),
         ("no such argument", lambda: grainreel.open("two.xyz", radii=3)),
         ("is for files of other programs", lambda: grainreel.open("line", radius="2 mm")),
@@ -87,6 +101,13 @@ def calls(run):
         ("is no folder of a run", lambda: grainreel.open("/")), ("no such", lambda: grainreel.open("nothing.xyz")),
         ("no-such-column", lambda: inspect(run, steady="no-such-column")),
         ("to", lambda: run.export("paper")), ("study:", lambda: grainreel.study({"scene": 3}, out="odd"))]
+
+
+def ring():
+    """A scene that holds itself."""
+    scene = {"title": "x"}
+    scene["start"] = {"inside": scene}
+    return scene
 
 
 def told(call):
@@ -131,6 +152,85 @@ def check_damage():
     return wrong
 
 
+def check_cut(run):
+    """A trajectory that was cut off is refused, as the program refuses it; of a killed run one frame may be missing."""
+    wrong, data = [], Path("line/trajectory.nc").read_bytes()
+    shutil.copytree("line", "cut", dirs_exist_ok=True)
+    for length, words in ((len(data) // 2, "of its 5 frames 1 are whole"), (len(data) - 10, "no mistake")):
+        Path("cut/trajectory.nc").write_bytes(data[:length])
+        os.utime("cut/trajectory.nc", (1, 1))  # else the reader waits for a program that still writes
+        for read in (len, lambda run: run[-1], lambda run: run.to_dataframe(), lambda run: run.time):
+            if words not in told(lambda: read(grainreel.open("cut"))):
+                wrong.append(f"of a trajectory that was cut off it says: {told(lambda: read(grainreel.open('cut')))}")
+    if len(grainreel.open("cut")) != len(run) - 1:
+        wrong.append("a frame that is not whole is counted")
+    return wrong
+
+
+def check_names(run):
+    """Names that are not there: which are meant."""
+    wrong = []
+    for words, call in (('run[-1].where("species', lambda: run.where), ("mean run.render()", lambda: run.picture),
+                        ("did you mean time", lambda: run.tim), ("mean x, y and z", lambda: run[-1].positions),
+                        ("mean kinetic_J", lambda: run.measures["kinetic_energy"]),
+                        ("mean kinetic_J", lambda: run.measures.kinetic)):
+        if words not in told(call):
+            wrong.append(f"'{words}' is expected, it says: {told(call)}")
+    return wrong
+
+
+def check_places():
+    """A run that was opened by a relative path holds after os.chdir(); one that is gone says so."""
+    wrong, here = [], os.getcwd()
+    shutil.copytree("line", "moved", dirs_exist_ok=True)
+    run, film = grainreel.open("moved"), grainreel.film("line")
+    os.chdir("/")
+    try:
+        if len(run) != 5 or run.inspect(grain=1) is None or not film.path.is_file() or run.path != Path(here, "moved"):
+            wrong.append(f"after os.chdir() a run is at {run.path}")
+    finally:
+        os.chdir(here)
+    if run.path != Path("moved"):
+        wrong.append(f"back again a run is at {run.path}")
+    shutil.rmtree("moved")
+    for read in (lambda: run.record, lambda: run.measures, lambda: run.contacts):
+        if "is not there any more" not in told(read):
+            wrong.append(f"of a run that was removed it says: {told(read)}")
+    return wrong if "not there any more" in repr(run) else [*wrong, f"a run that was removed is {run!r}"]
+
+
+def check_guesses():
+    """What the program guesses about other programs' files is a warning at the user's line, and in the record."""
+    Path("untimed.xyz").write_text('1\nProperties=species:S:1:pos:R:3:radius:R:1\nA 2 3 2 0.5\n')
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        run = grainreel.open("untimed.xyz")
+    words = [str(each.message) for each in said]
+    if not (any("says no density" in each for each in words) and words == run.record["warnings"]
+            and {each.filename for each in said} == {__file__} and said[0].category is grainreel.GrainreelWarning):
+        return [f"guesses are {words} at {[each.filename for each in said]}, recorded {run.record}"]
+    if "mass" in run[-1].variables or "mass" not in grainreel.open("untimed.xyz", density=2500)[-1].variables:
+        return ["a guessed density gives masses, or a given one none"]
+    return []
+
+
+def check_killed(scene="scene.toml"):
+    """A program that is killed, and one that is stopped before it does anything."""
+    wrong = []
+    running = grainreel.start(scene, out="killed", run__duration="1000 s")
+    next(now for now in running if now["stage"] == "vibrating")
+    running._process.kill()
+    if "was killed by signal 9 (SIGKILL)" not in told(running.result):
+        wrong.append(f"of a killed program it says: {told(running.result)}")
+    if "(was killed)" not in repr(grainreel.open("killed")):
+        wrong.append(f"a run whose program was killed is {grainreel.open('killed')!r}")
+    running = grainreel.start(scene, out="early", run__duration="1000 s")
+    running.stop()
+    if "stopped before it had made anything" not in told(running.result):
+        wrong.append(f"of a run that was stopped at once it says: {told(running.result)}")
+    return wrong
+
+
 def check_ends(scene="scene.toml"):
     """result() twice, stop() afterwards, a run that is dropped, and one that is pickled."""
     wrong = []
@@ -169,4 +269,5 @@ def check_fork():
 def check():
     """Needs the folder in which python_lines.check() has run."""
     with grainreel.open("line") as run:
-        return check_messages(run) + check_damage() + check_ends() + check_fork()
+        return (check_messages(run) + check_names(run) + check_damage() + check_cut(run) + check_places() +
+                check_guesses() + check_ends() + check_killed() + check_fork())

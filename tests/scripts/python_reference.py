@@ -14,7 +14,8 @@ ROOT = Path(__file__).resolve().parents[2]
 MODULE = ROOT / "render/package/python/grainreel"
 PAGE = ROOT / "docs/reference/python.md"
 FUNCTIONS = ("open", "run", "start", "render", "film", "inspect", "export", "report", "compare", "study", "check")
-CLASSES = ("Run", "Running", "Picture", "Film", "Answer", "Comparison", "Study", "GrainreelError")
+CLASSES = ("Run", "Frame", "Measures", "Running", "Picture", "Film", "Answer", "Comparison", "Study", "GrainreelError",
+           "GrainreelWarning")
 # Methods that are shown although their names begin with _, as they are written.
 SPECIAL = {"__len__": "len(run)", "__getitem__": "run[number]", "__iter__": "for frame in run"}
 

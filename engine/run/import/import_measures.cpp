@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -18,6 +19,7 @@
 #include "engine/measure/walls/mesh_wear.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/plan/reach.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/drive_motion.hpp"
 
@@ -96,9 +98,18 @@ void show(const State& frame, const std::vector<Link>& touches,
     }
 }
 
-// The scene without its start from a file. A plan would read that file, and there is none.
-Scene as_layers(Scene scene) {
+// The scene as a plan takes it, though nothing of it is computed. A plan would read the file of its start,
+// and there is none. It would also refuse walls that pass through grains within a step, but the files' walls
+// have moved already, and files that number their frames 1, 2, 3 seem to have the time between frames as
+// their step.
+Scene as_planned(Scene scene) {
+    constexpr double share = 0.05;  // of the smallest grain; check_rims() takes twice as much
     if (scene.start.method == Start::Method::file) scene.start = Start();
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Species& species : scene.species) smallest = std::min(smallest, species.diameter.smallest);
+    const double speed = fastest_own_speed(scene);
+    if (scene.run.step && speed * *scene.run.step > share * smallest)
+        scene.run.step = share * smallest / speed;
     return scene;
 }
 
@@ -123,7 +134,7 @@ struct ImportMeasures::Impl {
     Impl(const Scene& scene_in, const Clock& clock_in, const StateSupply& supply, bool weighed)
         : scene(scene_in),
           clock(clock_in),
-          plan(make_plan(as_layers(scene))),
+          plan(make_plan(as_planned(scene))),
           observers(entries(supply, weighed), scene, plan),
           faces(faces_of(scene)) {}
 

@@ -68,9 +68,10 @@ std::string species_text(const ForeignArchive& archive, const ImportSurvey& surv
         text += fmt::format("density = {}\n", number(known ? species.density : kGlassDensity));
     }
     if (guessed)
-        news.push_back(
-            fmt::format("{}: says no density; {} kg/m3 is taken where masses matter, --density says another",
-                        archive.path().string(), kGlassDensity));
+        news.push_back(fmt::format(
+            "{}: says no density; masses and energies are left out until --density gives it (glass: "
+            "{} kg/m3)",
+            archive.path().string(), kGlassDensity));
     return text;
 }
 

@@ -69,8 +69,19 @@ void refuse_other_folder(const fs::path& path) {
     for (const fs::directory_entry& entry : fs::directory_iterator(path, ignored))
         if (entry.is_directory(ignored)) inside.push_back(entry.path());
     std::sort(inside.begin(), inside.end());
+    std::vector<std::string> runs;
     for (const fs::path& folder : inside)
-        if (is_foreign(folder))
+        if (fs::exists(folder / "scene.toml", ignored)) runs.push_back(folder.string());
+    constexpr std::size_t most = 5;
+    const std::string more = runs.size() > most ? fmt::format(" and {} more", runs.size() - most) : "";
+    if (!runs.empty())
+        throw UserError(fmt::format(
+            "{}: is no folder of a run; name one of the runs in it: {}{}", path.string(),
+            fmt::join(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(std::min(most, runs.size())),
+                      ", "),
+            more));
+    for (const fs::path& folder : inside)
+        if (!fs::exists(folder / "film_times.csv", ignored) && is_foreign(folder))
             throw UserError(
                 fmt::format("{}: is no folder of a run; files of another program lie in {}; name "
                             "that folder",

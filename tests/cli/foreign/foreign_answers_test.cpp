@@ -163,6 +163,43 @@ TEST_F(ForeignAnswers, MistakesAreRefused) {
     expect_refused({"render", "bed.dump", "--walls", "no.stl"}, "no.stl");
 }
 
+// Without a density there are no masses. A condition that no grain meets for want of them would look like a
+// result.
+TEST_F(ForeignAnswers, QuestionsAboutMassesNeedADensity) {
+    const auto weighed = [](std::vector<std::string> words) {
+        words.insert(words.end(), {"--density", "2500"});
+        return words;
+    };
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"inspect", "bed.dump", "--where", "kinetic_energy > 1 nJ"},
+             {"inspect", "bed.dump", "--where", "mass > 1 mg"},
+             {"inspect", "bed.dump", "--histogram", "potential_energy"},
+             {"inspect", "bed.dump", "--where", "radius > 0", "--over-time", "--mean", "kinetic_energy"}}) {
+        const Ended refused = timed(words);
+        EXPECT_EQ(refused.status, 2) << words.back();
+        EXPECT_THAT(refused.err, tells({"needs masses", "--density"}));
+        const Ended told = timed(weighed(words));
+        EXPECT_EQ(told.status, 0) << told.err;
+    }
+    EXPECT_EQ(timed({"inspect", "bed.dump"}).status, 0);
+    const Ended drawn =
+        timed({"render", "bed.dump", "--set", "film.plot={column=\"kinetic_J\"}", "--out", "film"});
+    EXPECT_EQ(drawn.status, 2);
+    EXPECT_THAT(drawn.err, tells({"kinetic_J", "needs masses", "--density"}));
+    expect_refused({"inspect", "bed.dump", "--measure", "kinetic_J"}, "--over-time");
+}
+
+// The runs of a folder are named; the folder of a film, which holds tables too, is no folder of another
+// program.
+TEST_F(ForeignAnswers, AFolderOfRunsNamesThem) {
+    fs::create_directories(here / "output/a film");
+    write_text(here / "output/a film/run.json", "{}");
+    write_text(here / "output/a film/film_times.csv", "time_s,frame\n0,0\n");
+    fs::create_directories(here / "output/run");
+    write_text(here / "output/run/scene.toml", "title = \"x\"\n");
+    expect_refused({"render", "output"}, "name one of the runs in it: output/run");
+}
+
 TEST_F(ForeignAnswers, OptionsOfReadingAreNotForRunsOfOurs) {
     ASSERT_EQ(imported().status, 0);
     fs::rename(import(), here / "ours");

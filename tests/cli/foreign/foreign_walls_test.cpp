@@ -74,6 +74,22 @@ TEST_F(ForeignWalls, AreNamedAndDoubtedWhereTheyAreInMm) {
     EXPECT_THAT(scaled.err, testing::Not(HasSubstr("large")));
 }
 
+// Files whose numbers count frames in place of steps. Their walls move far from one to the next, which would
+// be too far for a step of ours.
+TEST_F(ForeignWalls, MayMoveFarInFilesThatCountTheirFrames) {
+    fs::create_directories(here / "counted");
+    for (int k = 0; k < kForeignFrames; ++k) {
+        const std::string frame = foreign_frame(k), head = fmt::format("ITEM: TIMESTEP\n{}\n", 1000 * k);
+        write_old_text(here / fmt::format("counted/bed_{}.dump", k + 1),
+                       fmt::format("ITEM: TIMESTEP\n{}\n", k + 1) + frame.substr(head.size()));
+        write_old_text(here / fmt::format("counted/paddle_{}.stl", k + 1), foreign_paddle(k * kPaddleTurn));
+    }
+    const Ended drawn =
+        program({"render", "counted", "--at", "0.08", "--size", "160x120", "--out", "counted.png"});
+    ASSERT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_THAT(drawn.err, HasSubstr("paddle_*.stl"));
+}
+
 // A page of another program's files has a film, but nothing that only the engine that computed them knows.
 TEST_F(ForeignWalls, PageHasAFilmAndNoMethodsOfOurs) {
     const Ended made = program({"report", "bed.dump", "--time-step", "1e-5", "--density", "2500 kg/m3"});

@@ -11,13 +11,15 @@ argument `program`, else $GRAINREEL, else the one in the wheel that this module 
 units; every variable says its own in attrs["units"]. What goes wrong is a GrainreelError with one line that says what to
 do.
 """
-from ._messages import GrainreelError
+from ._frames import Frame, Measures
+from ._messages import GrainreelError, GrainreelWarning
 from ._pictures import Picture
 from ._program import Running
 from ._results import Answer, Comparison, Film, Study
 from ._run import Run
 from ._verbs import check, compare, export, film, inspect, open, render, report, run, start, study
 
-__all__ = ["Answer", "Comparison", "Film", "GrainreelError", "Picture", "Run", "Running", "Study", "check", "compare",
-           "export", "film", "inspect", "open", "render", "report", "run", "start", "study"]
+__all__ = ["Answer", "Comparison", "Film", "Frame", "GrainreelError", "GrainreelWarning", "Measures", "Picture", "Run",
+           "Running", "Study", "check", "compare", "export", "film", "inspect", "open", "render", "report", "run", "start",
+           "study"]
 __version__ = "1.0.0"

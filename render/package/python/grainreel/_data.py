@@ -12,7 +12,9 @@ import xarray
 from xarray.backends import BackendArray
 from xarray.core import indexing
 
+from ._frames import Frame, Measures, as_frame, as_measures
 from ._messages import GrainreelError
+from ._whole import whole_records
 
 # Ends of columns in measures.csv that are units, and the one whose name does not end with its unit. All others are pure
 # numbers.
@@ -48,7 +50,7 @@ def read_record(file: Path) -> Dict[str, Any]:
     return record
 
 
-def read_measures(file: Path) -> xarray.Dataset:
+def read_measures(file: Path) -> Measures:
     """measures.csv, a variable for each column."""
     try:
         with file.open(newline="", encoding="utf-8") as text:
@@ -67,7 +69,7 @@ def read_measures(file: Path) -> xarray.Dataset:
     if "time_s" not in columns:
         raise GrainreelError(f"{file}: has no column time_s")
     columns["time"] = columns.pop("time_s")
-    return xarray.Dataset(columns)
+    return as_measures(xarray.Dataset(columns))
 
 
 def read_netcdf(file: Path, setting: str) -> xarray.Dataset:
@@ -75,6 +77,7 @@ def read_netcdf(file: Path, setting: str) -> xarray.Dataset:
     that there is one."""
     if not file.is_file():
         raise GrainreelError(f"{file}: is not there; run the scene with {setting}")
+    whole = whole_records(file)
     try:
         data = xarray.open_dataset(file, decode_times=False)
     except Exception as error:  # whatever the reader of NetCDF throws
@@ -82,6 +85,8 @@ def read_netcdf(file: Path, setting: str) -> xarray.Dataset:
         if "match in any of xarray" in why:  # the readers of NetCDF are there, but none takes this file
             why = "it is no whole NetCDF file, or python3-netcdf4 is not installed"
         raise GrainreelError(f"{file}: cannot be read: {why}") from error
+    if whole and data.sizes.get(whole[0], 0) > whole[1]:
+        data = data.isel({whole[0]: slice(whole[1])})
     data = data.drop_vars([each for each in data.variables if "checksum" in str(each)])
     for each, variable in list(data.variables.items()):
         if variable.dtype.kind == "S":
@@ -148,8 +153,29 @@ def read_contacts(file: Path, times: Callable[[], Any]) -> xarray.Dataset:
     return contacts.assign_coords(time=("row", times()[contacts.frame.values], {"units": "s"}))
 
 
-def one_frame(trajectory: xarray.Dataset, number: int) -> xarray.Dataset:
-    """A frame as a table: the grains that are there then, one a row, in the order of their ids, which are its index."""
+def one_frame(trajectory: xarray.Dataset, number: int, weighed: bool = True) -> Frame:
+    """A frame as a table: the grains that are there then, one a row, in the order of their ids, which are its index.
+    weighed: whether the density that the file says is more than a guess."""
+    return as_frame(_with_derived(_rows(trajectory, number), weighed))
+
+
+def _with_derived(frame: xarray.Dataset, weighed: bool) -> xarray.Dataset:
+    """With speed, and with mass where the density is known and the grains are spheres."""
+    if all(name in frame.variables for name in ("vx", "vy", "vz")):
+        speed = numpy.sqrt(frame.vx ** 2 + frame.vy ** 2 + frame.vz ** 2)
+        frame = frame.assign(speed=speed.assign_attrs(units="m/s", long_name="magnitude of the velocity"))
+    if not weighed or "mass" in frame.variables or "type" not in frame.variables or "half_lengths" in frame.variables:
+        return frame
+    words = str(frame["type"].attrs.get("density", "")).split()
+    densities = numpy.array([numpy.nan, *(float(word) for word in words if word[:1].isdigit())])
+    numbers = frame["type"].values
+    if len(densities) < 2 or numbers.size and int(numbers.max()) >= len(densities):
+        return frame
+    mass = frame.radius.astype(float) ** 3 * (4 / 3 * numpy.pi) * densities[numbers]
+    return frame.assign(mass=mass.assign_attrs(units="kg", long_name="mass"))
+
+
+def _rows(trajectory: xarray.Dataset, number: int) -> xarray.Dataset:
     frame = trajectory.isel(frame=number)
     frame = frame.drop_vars([name for name, variable in frame.variables.items() if variable.dims not in ((), ("atom",))])
     frame = frame.load()  # netCDF4 gives arrays of another shape where no grain is asked for
@@ -167,16 +193,29 @@ def one_frame(trajectory: xarray.Dataset, number: int) -> xarray.Dataset:
     return frame.set_coords([name for name in ("id", "species") if name in frame.variables]).set_xindex("id")
 
 
-def table_of_grains(trajectory: xarray.Dataset) -> Any:
+def table_of_grains(trajectory: xarray.Dataset, weighed: bool = True) -> Any:
     """A data frame of pandas: one row for each grain in each frame."""
     import pandas
 
     frames = []
     for number in range(trajectory.sizes["frame"]):
-        table = one_frame(trajectory, number).to_dataframe()
+        table = one_frame(trajectory, number, weighed).to_dataframe()
         table.insert(0, "frame", number)
         frames.append(table)
     return pandas.concat(frames, ignore_index=True) if frames else pandas.DataFrame()
+
+
+def room_beside(trajectory: xarray.Dataset) -> "numpy.ndarray[Any, Any]":
+    """How far (s) a typed time may lie from each frame and still mean it, as the program has it
+    (engine/base/typed_time.hpp): half a step, or a hundredth of the way to the next frame."""
+    times = trajectory["time"].values.astype(float)
+    gaps = numpy.diff(times)
+    gap = numpy.minimum(numpy.append(gaps, numpy.inf), numpy.insert(gaps, 0, numpy.inf))
+    steps = trajectory["step"].values.astype(float) if "step" in trajectory.variables else numpy.zeros(len(times))
+    done = steps[-1] - steps[0] if len(times) > 1 else 0
+    half = 0.5 * (times[-1] - times[0]) / done if done > 0 else 0
+    room = numpy.minimum(0.25 * gap, numpy.maximum(0.01 * gap, 5e-6 * abs(times)))
+    return numpy.maximum(half, numpy.where(numpy.isfinite(room), room, 0)) * (1 + 1e-9) + 1e-9 * abs(times)
 
 
 def table_of_rows(data: xarray.Dataset, dimension: str) -> Any:

@@ -1,11 +1,45 @@
 """What goes wrong, in Python's words."""
 from __future__ import annotations
 
+import os
 import re
+import sys
+import warnings
+from pathlib import Path
 
 
 class GrainreelError(Exception):
     """What the program, a file of a run, or an argument says is wrong: one line that says what to do."""
+
+
+class GrainreelWarning(UserWarning):
+    """What the program had to guess or to leave out, in one line."""
+
+
+_OWN = os.path.dirname(os.path.abspath(__file__)) + os.sep
+
+
+def tell(text: str) -> None:
+    """A warning at the line of the user that called the module."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_OWN):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, GrainreelWarning, stacklevel=level)
+
+
+class Placed:
+    """Something on disk. A path that was given relative to the working folder holds after os.chdir() too."""
+
+    def __init__(self, path: str) -> None:
+        self._given, self._absolute = path, os.path.abspath(path)
+
+    @property
+    def path(self) -> Path:
+        """Where it is: as it was given, or absolute once the working folder is another."""
+        return Path(self._given if os.path.abspath(self._given) == self._absolute else self._absolute)
+
+    def __fspath__(self) -> str:
+        return str(self.path)
 
 
 # Options whose arguments have another name, or that an argument turns off or on.
@@ -29,7 +63,7 @@ def in_python(text: str, verb: str = "") -> str:
         name = _ARGUMENTS.get(option, option.replace("-", "_"))
         return name + (f'="{value}"' if value else "")
 
-    return re.sub(r"(?<![\w-])--([a-z][a-z-]*)(?: (\d[\w.]*))?", argument, text)
+    return re.sub(r"(?<![\w-])--([a-z][a-z-]*)(?: (\d[\w.]*(?:(?<=e)-\d+)?))?", argument, text)
 
 
 def wrong(what: str, wanted: str, value: object) -> GrainreelError:

@@ -25,7 +25,7 @@ from typing import Any, Dict, List, Optional, Tuple
 import numpy
 
 from ._messages import GrainreelError, in_python, wrong
-from ._program import popen, program_of
+from ._program import end_of, popen, program_of
 from ._words import number_of, reading_words, seconds_of, settings_of, size_of, text_of, whole_of
 
 
@@ -71,6 +71,8 @@ class Painter:
         greeting = self._line()
         #: The folder of the run; of other programs' files that of their import.
         self.folder = str(greeting["run"])
+        #: What it had to guess about other programs' files.
+        self.told = [self._told(said["text"]) for said in self._messages() if said.get("event") in ("info", "warning")]
 
     def draw(self, asked: Mapping[str, Any]) -> Tuple[Picture, List[str]]:
         """The picture that a question asks for (render/app/asked/asked_pictures.hpp), and warnings about it."""
@@ -133,17 +135,22 @@ class Painter:
 
     def _why(self) -> GrainreelError:
         status = self._process.wait()
-        self._said.seek(0)
-        lines, words = self._said.read().decode("utf-8", "replace").splitlines(), []
+        errors = [str(said["text"]) for said in self._messages() if said.get("event") == "error"]
         self.close()
-        for line in lines:
+        return GrainreelError(in_python(errors[-1]) if errors else f"the program that draws {end_of(status)}")
+
+    def _messages(self) -> List[Dict[str, Any]]:
+        """What it has said so far."""
+        size = os.fstat(self._said.fileno()).st_size  # read without a seek, as the program writes at the same place
+        messages: List[Dict[str, Any]] = []
+        for line in os.pread(self._said.fileno(), size, 0).decode("utf-8", "replace").splitlines():
             try:
                 said = json.loads(line)
-                words.append(said["text"] if said.get("event") == "error" else "")
             except ValueError:
-                words.append(line.removeprefix("error: "))
-        last = [each for each in words if each]
-        return GrainreelError(in_python(last[-1]) if last else f"the program that draws ended with status {status}")
+                said = {"event": "error", "text": line.removeprefix("error: ")}
+            if isinstance(said, dict) and said.get("text"):
+                messages.append(said)
+        return messages
 
 
 _MOST = 4  # processes that stay
@@ -266,6 +273,8 @@ def _word(value: object, what: str, words: Tuple[str, ...]) -> str:
 
 def _numbers(values: object) -> "numpy.ndarray[Any, numpy.dtype[numpy.float64]]":
     try:
+        if numpy.iscomplexobj(values):  # type: ignore[arg-type]
+            raise TypeError
         numbers = numpy.asarray(values, dtype=numpy.float64)
     except (TypeError, ValueError):
         raise wrong("colour", "a number for each grain", values) from None

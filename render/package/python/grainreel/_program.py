@@ -165,7 +165,8 @@ class Running:
             if isinstance(watcher, ProgressLine):
                 watcher.end()
         self._ended()
-        if status != 0 and not (self._stopped and status == 128 + signal.SIGINT):
+        # A program that was stopped before it could wait for signals ends by the signal itself.
+        if status != 0 and not (self._stopped and status in (128 + signal.SIGINT, -signal.SIGINT)):
             self._error = GrainreelError(self._why(status))
             raise self._error
         self._printed = "".join(self._parts)
@@ -199,8 +200,18 @@ class Running:
 
     def _why(self, status: int) -> str:
         errors = [said["text"] for said in self.messages if said.get("event") == "error"]
-        last = errors or [said["text"] for said in self.messages]
-        return str(last[-1]) if last else f"{self._words[0]}: ended with status {status}"
+        return str(errors[-1]) if errors else f"{self._words[0]}: {end_of(status)}"
+
+
+def end_of(status: int) -> str:
+    """In words, how a process ended that has said no error."""
+    if status >= 0:
+        return f"ended with status {status} and said no error"
+    try:
+        name = f" ({signal.Signals(-status).name})"
+    except ValueError:
+        name = ""
+    return f"was killed by signal {-status}{name}"
 
 
 def _gather(pipe: Any, parts: List[str]) -> None:

@@ -2,13 +2,13 @@
 from __future__ import annotations
 
 import base64
-import os
 from collections.abc import Iterator, Mapping
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, List, Optional
 
-from ._messages import GrainreelError, in_python
+from ._messages import GrainreelError, Placed, in_python
+from ._words import path_of
 
 if TYPE_CHECKING:
     from ._run import Run
@@ -17,18 +17,16 @@ _SHOWN = {".mp4": "video/mp4", ".webm": "video/webm", ".gif": "image/gif", ".png
 _MOST_INSIDE = 50_000_000  # bytes of a film that a notebook takes in; larger ones are only linked
 
 
-class Film:
+class Film(Placed):
     """A film on disk, which a notebook shows."""
 
     def __init__(self, file: object) -> None:
-        #: The file.
-        self.path = Path(os.fspath(file))  # type: ignore[call-overload]
+        super().__init__(path_of(file, "film"))
+        if not self.path.is_file():
+            raise GrainreelError(f"film: {self.path} is not there")
 
     def __repr__(self) -> str:
         return f"<grainreel.Film {self.path}>"
-
-    def __fspath__(self) -> str:
-        return str(self.path)
 
     def _repr_html_(self) -> str:
         """The film itself, so that the notebook can be sent to others; a link where it is too large for that."""
@@ -84,20 +82,16 @@ class Answer(Mapping[str, Any]):
         return "".join(parts + [f"<p>{escape(note)}</p>" for note in self.notes])
 
 
-class Comparison:
+class Comparison(Placed):
     """Runs side by side: the folder that `grainreel.compare` made."""
 
     def __init__(self, folder: object, runs: Optional[List["Run"]] = None) -> None:
-        #: The folder.
-        self.path = Path(os.fspath(folder))  # type: ignore[call-overload]
+        super().__init__(path_of(folder, "comparison"))
         #: The runs, those that were made for it too.
         self.runs: List["Run"] = runs or []
 
     def __repr__(self) -> str:
         return f"<grainreel.Comparison {self.path}>"
-
-    def __fspath__(self) -> str:
-        return str(self.path)
 
     @property
     def film(self) -> Film:
@@ -114,12 +108,11 @@ class Comparison:
             return f"<p>{escape(str(error))}</p>"
 
 
-class Study:
+class Study(Placed):
     """The results of a study: the folder that `grainreel.study` filled."""
 
     def __init__(self, folder: object) -> None:
-        #: The folder.
-        self.path = Path(os.fspath(folder))  # type: ignore[call-overload]
+        super().__init__(path_of(folder, "study"))
 
     def __repr__(self) -> str:
         return f"<grainreel.Study {self.path}>"

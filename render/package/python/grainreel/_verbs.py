@@ -3,18 +3,19 @@ from __future__ import annotations
 
 import json
 import os
-import warnings
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Union
 
-from ._messages import GrainreelError, wrong
+from ._messages import GrainreelError, tell, wrong
 from ._pictures import Picture, painter_of, question
 from ._program import Running, call, program_of
 from ._results import Answer, Comparison, Film, Study
 from ._scenes import SceneFile
 from ._words import Path as PathLike
-from ._words import (Progress, Time, exclusive, options, path_of, reading_words, sets, size_of, time_of, whole_of)
+from ._words import (Progress, Time, exclusive, options, path_of, reading_words, sets, size_of, text_of, time_of,
+                     whole_of, whole_or_none)
 
 if TYPE_CHECKING:
     from ._run import Run
@@ -83,13 +84,14 @@ def run(scene: Scene = None, *, text: Optional[str] = None, progress: Progress =
     return made
 
 
-def render(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Optional[int] = None,
-           cycle: Optional[float] = None, phase: Optional[float] = None, size: Any = None, colour: Any = None,
-           program: Optional[PathLike] = None, reading: Settings = None, set: Settings = None,
+def render(run: Union[PathLike, "Run"], file: Optional[PathLike] = None, *, at: Optional[Time] = None,
+           frame: Optional[int] = None, cycle: Optional[float] = None, phase: Optional[float] = None, size: Any = None,
+           colour: Any = None, program: Optional[PathLike] = None, reading: Settings = None, set: Settings = None,
            **settings: Any) -> Picture:
     """A picture of a moment of a run, or of another program's files, as an array: rows x columns x 3 (4 where it is
     transparent) numbers of 0 to 255.
 
+    - `file`: a PNG file that it is written to as well.
     - `at`: s; `frame`: number of a frame of the film, from 0 or from its end (-1), of a run that was made with `film=True`;
       `cycle`: periods of the drive, and `phase`, from 0 to 1 of the next one. None of them: the last moment.
     - `size`: "640x480" or (640, 480).
@@ -104,14 +106,17 @@ def render(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Opt
     """
     moment = {"at": at, "frame": frame, "cycle": cycle, "phase": phase}
     asked = question(moment, size, colour, dict(settings), set)
+    target = None if file is None else path_of(file, "file")
     painter = painter_of(path_of(run, "run"), _program(run, program), _reading(run, reading))
     picture, notes = painter.draw(asked)
-    for note in notes:
-        warnings.warn(note, stacklevel=2)
+    for note in [*([] if hasattr(run, "_told") else painter.told), *notes]:
+        tell(note)
+    if target is not None:
+        picture.save(target)
     return picture
 
 
-def film(run: Union[PathLike, "Run"], *, out: Optional[PathLike] = None, force: bool = False, size: Any = None,
+def film(run: Union[PathLike, "Run"], out: Optional[PathLike] = None, *, force: bool = False, size: Any = None,
          fps: Optional[float] = None, format: Optional[str] = None, title: Optional[str] = None,
          start: Optional[Time] = None, end: Optional[Time] = None, every: Optional[int] = None, replay: bool = True,
          threads: Optional[int] = None, progress: Progress = None, program: Optional[PathLike] = None,
@@ -138,10 +143,10 @@ def film(run: Union[PathLike, "Run"], *, out: Optional[PathLike] = None, force: 
     return Film(films[0] if films else folder)
 
 
-def inspect(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Optional[int] = None,
-            cycle: Optional[float] = None, phase: Optional[float] = None, average: Optional[float] = None,
-            grain: Optional[int] = None, wall: Optional[str] = None, largest_overlap: bool = False,
-            where: Optional[str] = None, profile: Optional[str] = None, slice: Optional[str] = None,
+def inspect(run: Union[PathLike, "Run"], where: Optional[str] = None, *, at: Optional[Time] = None,
+            frame: Optional[int] = None, cycle: Optional[float] = None, phase: Optional[float] = None,
+            average: Optional[float] = None, grain: Optional[int] = None, wall: Optional[str] = None,
+            largest_overlap: bool = False, profile: Optional[str] = None, slice: Optional[str] = None,
             histogram: Optional[str] = None, bins: Optional[int] = None, pair_distribution: bool = False,
             compare: Optional[Time] = None, steady: Optional[str] = None, over_time: bool = False,
             every: Optional[Time] = None, mean: Optional[str] = None, limit: Optional[int] = None, replay: bool = True,
@@ -157,10 +162,12 @@ def inspect(run: Union[PathLike, "Run"], *, at: Optional[Time] = None, frame: Op
     docs/guide/inspect.md tells more.
     """
     words = [path_of(run, "run"), "--json"]
-    words += options(at=time_of(at, "at"), frame=frame, cycle=cycle, phase=phase, average=average, grain=grain, wall=wall,
-                     largest_overlap=largest_overlap, where=where, profile=profile, slice=slice, histogram=histogram,
-                     bins=bins, pair_distribution=pair_distribution, compare=time_of(compare, "compare"), steady=steady,
-                     over_time=over_time, every=time_of(every, "every"), mean=mean, limit=limit, no_replay=not replay)
+    words += options(at=time_of(at, "at"), frame=whole_or_none(frame, "frame"), cycle=cycle, phase=phase, average=average,
+                     grain=whole_or_none(grain, "grain"), wall=wall, largest_overlap=largest_overlap,
+                     where=_condition(where), profile=profile, slice=slice, histogram=histogram,
+                     bins=whole_or_none(bins, "bins"), pair_distribution=pair_distribution,
+                     compare=time_of(compare, "compare"), steady=steady, over_time=over_time,
+                     every=time_of(every, "every"), mean=mean, limit=whole_or_none(limit, "limit"), no_replay=not replay)
     words += reading_words(_reading(run, reading))
     return Answer(json.loads(call("inspect", words, _program(run, program), progress)))
 
@@ -170,7 +177,7 @@ _EXPORTS = {"netcdf": "frames.nc", "lammps-dump": "frames.lammpstrj", "lammps-da
             "grain-table": "last.csv"}
 
 
-def export(run: Union[PathLike, "Run"], to: str, *, out: Optional[PathLike] = None, force: bool = False,
+def export(run: Union[PathLike, "Run"], to: str, out: Optional[PathLike] = None, *, force: bool = False,
            at: Optional[Time] = None, start: Optional[Time] = None, end: Optional[Time] = None,
            every: Optional[int] = None, progress: Progress = None, program: Optional[PathLike] = None,
            reading: Settings = None) -> Path:
@@ -190,7 +197,7 @@ def export(run: Union[PathLike, "Run"], to: str, *, out: Optional[PathLike] = No
     return Path(call("export", words, _program(run, program), progress).strip())
 
 
-def report(runs: Any, *, out: Optional[PathLike] = None, progress: Progress = None, program: Optional[PathLike] = None,
+def report(runs: Any, out: Optional[PathLike] = None, *, progress: Progress = None, program: Optional[PathLike] = None,
            reading: Settings = None) -> Path:
     """The page of a run, or of several runs side by side: film, charts and the bed in three dimensions. It gives the
     file, report.html in the run's folder; of several runs side_by_side.html."""
@@ -199,19 +206,21 @@ def report(runs: Any, *, out: Optional[PathLike] = None, progress: Progress = No
     return Path(call("report", words, _program(first, program), progress).strip())
 
 
-def compare(runs: Any, *, out: Optional[PathLike] = None, force: bool = False, vary: Optional[Mapping[str, Any]] = None,
-            captions: Optional[Sequence[str]] = None, at: Optional[Time] = None, size: Any = None,
-            fps: Optional[float] = None, format: Optional[str] = None, title: Optional[str] = None, cache: bool = True,
-            threads: Optional[int] = None, replay: bool = True, progress: Progress = None,
+def compare(runs: Any, *more: Union[PathLike, "Run"], out: Optional[PathLike] = None, force: bool = False,
+            vary: Optional[Mapping[str, Any]] = None, captions: Optional[Sequence[str]] = None, at: Optional[Time] = None,
+            size: Any = None, fps: Optional[float] = None, format: Optional[str] = None, title: Optional[str] = None,
+            cache: bool = True, threads: Optional[int] = None, replay: bool = True, progress: Progress = None,
             program: Optional[PathLike] = None, reading: Settings = None, set: Settings = None,
             **settings: Any) -> Comparison:
-    """Runs side by side, in step: two to six runs, scenes or files of other programs; or one scene with
-    `vary={"drive.g_level": [2, 4]}`.
+    """Runs side by side, in step: two to six runs, scenes or files of other programs, as a list or one after
+    another; or one scene with `vary={"drive.g_level": [2, 4]}`.
 
     - `captions`: one for each. `at`: s, one picture in place of a film.
     - `settings`, `set`: keys that every scene gets. The rest: see `start` and `film`.
     """
     _check_progress(progress)
+    if more:
+        runs = [runs, *more]
     given = _paths(runs)
     words: List[str] = given + options(
         out=out, force=bool(force) and out is not None, vary=_vary(vary), fps=fps, format=format, title=title,
@@ -294,7 +303,14 @@ def _paths(runs: object) -> List[str]:
         return [path_of(runs, "runs")]
     if not isinstance(runs, (list, tuple)):
         raise wrong("runs", "a path or a list of them", runs)
+    if not runs:
+        raise GrainreelError("runs: is an empty list; give the runs")
     return [path_of(each, "runs") for each in runs]
+
+
+def _condition(where: Optional[str]) -> Optional[str]:
+    """A condition in the program's words, which has names in double quotes."""
+    return None if where is None else re.sub(r"'([^'\"]*)'", r'"\1"', text_of(where, "where"))
 
 
 def _vary(vary: Optional[Mapping[str, Any]]) -> Optional[str]:

@@ -61,7 +61,14 @@ def whole_of(value: object, what: str) -> int:
     number = number_of(value, what)
     if not math.isfinite(number) or number != int(number):
         raise wrong(what, "a whole number", value)
+    if abs(number) >= 2 ** 31:
+        raise wrong(what, "a whole number below 2,147,483,648", value)
     return int(number)
+
+
+def whole_or_none(value: object, what: str) -> Optional[int]:
+    """One whole number; None for None."""
+    return None if value is None else whole_of(value, what)
 
 
 _SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0}
@@ -102,6 +109,13 @@ def size_of(value: object) -> str:
 
 def toml(value: object, what: str) -> str:
     """A value as TOML."""
+    try:
+        return _toml(value, what)
+    except RecursionError:
+        raise GrainreelError(f"{what.split('.')[0]}: holds itself, or is nested too deeply") from None
+
+
+def _toml(value: object, what: str) -> str:
     if isinstance(value, (bool, numpy.bool_)):
         return "true" if value else "false"
     if isinstance(value, os.PathLike):
@@ -109,11 +123,11 @@ def toml(value: object, what: str) -> str:
     if isinstance(value, str):
         return json.dumps(text_of(value, what), ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Mapping):
-        pairs = [f"{_key(key, what)} = {toml(each, f'{what}.{key}')}" for key, each in value.items()]
+        pairs = [f"{_key(key, what)} = {_toml(each, f'{what}.{key}')}" for key, each in value.items()]
         return "{ " + ", ".join(pairs) + " }"
     if isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) > 0:
         items: Iterable[object] = value  # type: ignore[assignment]
-        return "[" + ", ".join(toml(each, what) for each in items) + "]"
+        return "[" + ", ".join(_toml(each, what) for each in items) + "]"
     if isinstance(value, (int, numpy.integer)):
         return str(int(value))
     if isinstance(value, (float, numpy.floating)) or getattr(value, "ndim", None) == 0:
@@ -185,10 +199,20 @@ def reading_words(reading: Mapping[str, object]) -> List[str]:
     for name, value in reading.items():
         if name not in known:
             raise GrainreelError(f"{name}: no such argument; files of other programs are read with {', '.join(known)}")
+        _check_reading(name, value)
         if isinstance(value, Mapping):
             value = ",".join(f"{text_of(str(key), name)}={text_of(str(each), name)}" for key, each in value.items())
         words += option(name, value)
     return words
+
+
+def _check_reading(name: str, value: object) -> None:
+    if isinstance(value, (list, tuple)) and name not in ("columns", "contacts", "walls"):
+        raise wrong(name, "one value", value)
+    if name != "species" or value is None or isinstance(value, str):
+        return
+    if not isinstance(value, Mapping) or not all(isinstance(each, str) for each in value.values()):
+        raise wrong(name, 'a dict of names by the types of the files, as in {1: "small", 2: "big"}', value)
 
 
 def exclusive(**values: object) -> None:
