@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/accuracy/single_contact.hpp"
+#include "engine/lab/chart/accuracy/spins.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/gas.hpp"
 #include "engine/lab/chart/small_bed.hpp"
@@ -155,20 +156,22 @@ bool run_accuracy(const ChartRequest& request, const ChartWatcher& watcher) {
                      "setting,seed,height_m,temperature_m2s2,contacts,mixing,cost_ns", 2);
     ResultTable convergence(request.folder / "convergence.csv", "contact,law,steps,error", 3);
     ResultTable gases(request.folder / "gas.csv", "method,e,seed,contacts,steps,gained,lost", 4);
+    ResultTable spins(request.folder / "spins.csv", "law,e,degrees,steps,velocity,spin,normal,formula", 3);
     const std::size_t pieces =
-        convergence_pieces(request.quick) + gas_drift_pieces(request.quick) +
+        convergence_pieces(request.quick) + gas_drift_pieces(request.quick) + spin_pieces(request.quick) +
         methods().size() * restitutions(request.quick).size() * force_counts(request.quick).size() +
         bed_settings(request.quick).size() * (request.quick ? 2 : 5);
     ChartWork work(watcher, pieces);
-    if (!run_contacts(request.quick, contacts, work) || !run_convergence(request.quick, convergence, work) ||
-        !run_gas_drift(request.quick, gases, work) || !run_beds(request.quick, beds, work))
+    if (!run_spins(request.quick, spins, work) || !run_contacts(request.quick, contacts, work) ||
+        !run_convergence(request.quick, convergence, work) || !run_gas_drift(request.quick, gases, work) ||
+        !run_beds(request.quick, beds, work))
         return false;
     replace_file(request.folder / "differences.csv", differences_table(beds));
     return true;
 }
 
 std::string accuracy_drawing() {
-    return R"(# Draws contacts.csv, convergence.csv, gas.csv and bed.csv, and the other engines of peers.csv (made by
+    return R"(# Draws contacts.csv, convergence.csv, spins.csv, gas.csv and bed.csv, and the other engines of peers.csv (made by
 # tests/peers/impacts.sh) where that lies beside them: gnuplot accuracy.gp
 set datafile separator ','
 set style data linespoints
@@ -202,7 +205,7 @@ do for [form in "svg png"] {
     unset multiplot
     unset title
 )" + std::string(convergence_drawing()) +
-           gas_drift_drawing() +
+           spins_drawing() + gas_drift_drawing() +
            R"(    set output 'bed.'.form
     unset logscale
     set format xy '%g'
