@@ -41,8 +41,7 @@ struct LawPair {
     static constexpr bool uses_mass = Normal::uses_mass, uses_radius = Normal::uses_radius;
 
     // True if the normal law takes into account at which instant of the step the contact began, and the
-    // tangential law gains accuracy by it. Slip then counts from that instant, and the tangential force acts
-    // for as long as the normal force.
+    // tangential law gains accuracy by it. The tangential force then acts for as long as the normal force.
     static constexpr bool weighs_onset = Normal::weighs_onset && Tangential::gains_by_onset;
 
     template <class R>
@@ -85,7 +84,7 @@ struct LawPair {
     template <class R>
     static HWY_INLINE Force<R> force(const Parameters<R>& p, History<R>& h, Touch<R> touch,
                                      const Triple<R>& velocity, R step, R ahead) {
-        if constexpr (rubs && !weighs_onset) touch.slip = velocity.across(touch.normal) * step;
+        if constexpr (uses_velocity) touch.step = step;
         if constexpr (has_dashpot) {
             set_velocity(touch, later(velocity, h.before.velocity, ahead));
             slow_down(touch, p.normal, h.before.force, ahead * step);
@@ -93,9 +92,8 @@ struct LawPair {
         } else if constexpr (uses_velocity) {
             set_velocity(touch, velocity);
         }
-        if constexpr (uses_velocity) touch.step = step;
+        if constexpr (rubs) touch.slip = velocity.across(touch.normal) * touched(h.normal, touch, step);
         if constexpr (weighs_onset) {
-            touch.slip = velocity.across(touch.normal) * Normal::touched(h.normal, touch);
             const R over_the_step = Normal::force(p.normal, h.normal, touch);
             const R spring = Normal::now(p.normal, h.normal, touch);
             const R acts = select(spring > R(0), over_the_step / spring, R(0));
@@ -132,6 +130,16 @@ struct LawPair {
     }
 
   private:
+    // Time (s) of the step for which the bodies have touched, as far as the normal law knows it.
+    template <class R>
+    static HWY_INLINE R touched(const typename Normal::template History<R>& h, const Touch<R>& touch,
+                                R step) {
+        if constexpr (Normal::weighs_onset)
+            return Normal::touched(h, touch);
+        else
+            return step;
+    }
+
     // Dashpots need the velocity at the time of the force. With Verlet this is half a step after the time of
     // the known velocity. The velocity is assumed to go on changing as it did over the last step. For two
     // grains that only forces move, this adds exactly what the old force does in half a step (the half kick

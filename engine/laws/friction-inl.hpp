@@ -24,9 +24,7 @@ HWY_INLINE double finite_friction(double friction) {
 template <class R>
 HWY_INLINE Triple<R> capped_at(const Triple<R>& force, R limit) {
     const R squared = force.squared();
-    const auto slides = squared > limit * limit;
-    const Triple<R> shortened = force * (limit / root(squared));
-    return select(slides, shortened, force);
+    return force * select(squared > limit * limit, limit / root(squared), R(1));
 }
 
 // The square (N^2) of the part of `force` that a cap lets act. A spring beyond the cap gives back no more

@@ -6,6 +6,10 @@
 //
 // T is the signed magnitude along the present friction direction, and T* is its value at the last turning
 // point. gamma = 1/3 resembles Mindlin's elastic contact, 1 or 2 contacts with plastic flow.
+//
+// A step takes the stiffness of its middle, where N and T are means of before and after (the implicit
+// midpoint rule, of second order). It is found with the slip of the step, because an estimate of T without it
+// may lie beyond the cap, where there is no stiffness. docs/notes/step.md has what other rules would give.
 #if defined(GRAINREEL_LAWS_INCREMENTAL_SLIP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_INCREMENTAL_SLIP_INL
 #undef GRAINREEL_LAWS_INCREMENTAL_SLIP_INL
@@ -14,7 +18,7 @@
 #endif
 
 #include "engine/laws/friction-inl.hpp"
-#include "engine/laws/power-inl.hpp"
+#include "engine/laws/softness-inl.hpp"
 #include "engine/laws/touch-inl.hpp"
 #include "engine/plan/plan.hpp"
 
@@ -22,8 +26,6 @@ HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
 struct IncrementalSlip {
-    // The stiffness is taken at the step's beginning, which leaves an error of first order. So it would not
-    // help to know exactly when the contact began.
     static constexpr bool rubs = true, gains_by_onset = false;
 
     template <class R>
@@ -45,11 +47,11 @@ struct IncrementalSlip {
     struct History {
         Triple<R> force;  // N, on j, perpendicular to k
         R turning_ratio;  // T* / N: T* grows and falls with N
-        R shrinks;        // 1 while |T| shrinks, else 0
+        R pressed;        // N, the normal force that the cap had; negative while |T| shrinks
 
         template <class Each>
         HWY_INLINE void each(const Each& visit) {
-            visit.turning(force), visit(turning_ratio), visit(shrinks);
+            visit.turning(force), visit(turning_ratio), visit(pressed);
         }
     };
 
@@ -58,7 +60,7 @@ struct IncrementalSlip {
     static HWY_INLINE Triple<R> force(const Parameters<R>& p, const Normal&, History<R>& h,
                                       const Touch<R>& touch, R normal_force) {
         const R pushing = larger(R(0), normal_force), limit = p.friction * pushing;
-        const auto shrank = h.shrinks > R(0);
+        const auto shrank = h.pressed < R(0);
         const Triple<R> old = carry_along(h.force, touch.turn, touch.normal);
 
         // The friction direction is that of the old force, or that of the slip where there is no force yet.
@@ -69,21 +71,22 @@ struct IncrementalSlip {
         const R guide_size = root(guide_squared);
         const R old_size = select(loaded, guide_size, R(0));
         const R inverse_size = select(guide_squared > R(0), R(1) / guide_size, R(0));
-        const Triple<R> direction = guide * inverse_size;
-        const R along = direction.dot(touch.slip);
+        const R along = guide.dot(touch.slip) * inverse_size;
 
         const auto shrinks = along < R(0);
         const auto turns = differ(shrinks, shrank);
-        const R ratio_before = larger(-p.friction, smaller(p.friction, h.turning_ratio));
-        const R turning_force = select(turns, old_size, ratio_before * pushing);
+        const R pressed = size_of(h.pressed);
+        const R ratio = select(turns, old_size / pressed, h.turning_ratio);
         const R sign = select(shrinks, R(-1), R(1));
-        const R parallel =
-            old_size + p.stiffness * softening(p, sign, turning_force, old_size, limit) * along;
-        const Triple<R> now = (direction * parallel).plus(touch.slip.less(direction, along), p.stiffness);
+        const R share = share_of_stiffness(p, sign * ratio, R(0.5) * (pressed + pushing), sign * old_size,
+                                           size_of(along));
+        const R gain = p.stiffness * along, parallel = multiply_add(gain, share, old_size);
         const auto through_zero = parallel < R(0);  // the direction flips, and a force that shrank now grows
-        const R ratio = select(pushing > R(0), select(turns, old_size / pushing, ratio_before), R(0));
-        h.turning_ratio = select(through_zero, -ratio, ratio);
-        h.shrinks = select(shrinks, select(through_zero, R(0), R(1)), R(0));
+        h.turning_ratio = select(pushing > R(0), select(through_zero, -ratio, ratio), R(0));
+        h.pressed = select(differ(shrinks, through_zero), -pushing, pushing);
+        // The slip across the old force meets K0, and so does the slip along it, less what the law leaves
+        // out.
+        const Triple<R> now = (touch.slip * p.stiffness).plus(guide, (parallel - gain) * inverse_size);
         h.force = capped_at(now, limit);
         return h.force;
     }
@@ -101,16 +104,21 @@ struct IncrementalSlip {
     }
 
   private:
-    // The factor [..]^gamma of the law, with its base held in [0, 1]. If T has no room left to grow or
-    // shrink, there is no stiffness. T may lie before its turning point, because T* has grown with N. Then
-    // the contact has its full stiffness. Without this rule, a contact that turned at mu N and was then
-    // pressed harder would slide for ever. `sign` is -1 while |T| shrinks, else 1.
+    // The factor [..]^gamma of the law in the middle of the step. All forces are counted along the slip:
+    // `turning_ratio` is T* / N, `old` is T before the step, `pressed` is N in the middle, and `slip` (m, >=
+    // 0) is that of the step. If T has no room left to grow, there is no stiffness. T may lie before its
+    // turning point, because T* has grown with N. Then the contact has its full stiffness. Without this rule,
+    // a contact that turned at mu N and was then pressed harder would slide for ever. (The bounds keep all
+    // numbers finite. Where they act, T comes to the cap in this step.)
     template <class R>
-    static HWY_INLINE R softening(const Parameters<R>& p, R sign, R turning_force, R old_size, R limit) {
-        const R room = limit - sign * turning_force;
-        const R gone = sign * (old_size - turning_force);  // N, change since the turning point
-        const R base = larger(R(0), smaller(R(1), R(1) - gone / room));
-        return select(gone < R(0), R(1), select(room > R(0), power(base, p.gamma), R(0)));
+    static HWY_INLINE R share_of_stiffness(const Parameters<R>& p, R turning_ratio, R pressed, R old,
+                                           R slip) {
+        const R room = (p.friction - turning_ratio) * pressed;   // N, from the turning point to the cap
+        const R left = multiply_add(p.friction, pressed, -old);  // N, from T before the step to the cap
+        const R half = R(0.5) * p.stiffness * slip;              // N, what T gains by then with all of K0
+        const R scale = R(1) / larger(room, multiply_add(R(1e-6), half, R(1e-30)));
+        const R b = half * scale, a = larger(R(1e-9), smaller(left * scale, R(1) + b));
+        return select(left > R(0), smaller(R(1), softness(a, b, p.gamma)), R(0));
     }
 };
 

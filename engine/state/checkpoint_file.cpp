@@ -18,7 +18,7 @@ namespace grainreel {
 namespace {
 
 constexpr std::string_view kName = "grainrs";  // the same in every version; kVersion follows
-constexpr char kVersion = 'c';
+constexpr char kVersion = 'd';
 
 template <class Grain, class Each>
 void transfer_grains(Grain& g, const Each& each) {

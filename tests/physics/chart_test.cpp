@@ -99,6 +99,19 @@ TEST(Charts, LinearSpringIsOfSecondOrderWithCorrections) {
                 2, 0.2);
 }
 
+// Incremental slip with the stiffness of the step's middle. With that of its beginning the order was 0.75,
+// and the first error 0.0083.
+TEST(Charts, IncrementalSlipIsOfHigherThanFirstOrder) {
+    const Method corrected{"", Integrator::velocity_verlet, NormalForce::walton_braun_corrected,
+                           TangentialLaw::incremental_slip};
+    const double coarse = oblique_errors(corrected, 0.9, 16).velocity;
+    const double fine = oblique_errors(corrected, 0.9, 128).velocity;
+    std::printf("[ measured ] errors %.5f and %.6f, order %.2f\n", coarse, fine,
+                std::log2(coarse / fine) / 3);
+    EXPECT_LT(coarse, 0.003);
+    EXPECT_GT(std::log2(coarse / fine) / 3, 1.4);
+}
+
 TEST(Charts, DifferencesAreOverTheSeedsScatter) {
     const auto row = [](const char* setting, double height, double cost) {
         return BedRow{setting, {height, 1, 1, 1, cost}};

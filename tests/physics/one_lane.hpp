@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/laws/power-inl.hpp"
+#include "engine/laws/softness-inl.hpp"
 
 namespace grainreel::HWY_NAMESPACE {
 
@@ -53,8 +53,9 @@ OneLane<Number, fused> guess_inverse_cube_root(OneLane<Number, fused> x) {
     return OneLane<Number, fused>::of(guess_inverse_cube_root(x.value));
 }
 template <class Number, bool fused>
-OneLane<Number, fused> any_power(OneLane<Number, fused> base, OneLane<Number, fused> exponent) {
-    return OneLane<Number, fused>::of(any_power(base.value, exponent.value));
+OneLane<Number, fused> any_root(OneLane<Number, fused> a, OneLane<Number, fused> b,
+                                OneLane<Number, fused> gamma) {
+    return OneLane<Number, fused>::of(any_root(a.value, b.value, gamma.value));
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -162,8 +162,8 @@ ReferenceStep::Push ReferenceStep::push(const PairPlan& p, Memory& m, Meeting c)
     } else {
         normal = normal_force(p, m, c, speed, acts, touched);
     }
-    // Only the linear spring counts its slip from the touch.
-    if (p.model.tangential != TangentialLaw::linear_spring) normal *= acts, acts = 1, touched = dt_;
+    // All slip counts from the touch. Only the linear spring acts for as long as the normal force.
+    if (p.model.tangential != TangentialLaw::linear_spring) normal *= acts, acts = 1;
     Push f{normal * acts, Vec3(0, 0, 0), Vec3(0, 0, 0)};
     if (p.model.tangential == TangentialLaw::none) return f;
     m.tangential = turned(m.tangential, c.turn, c.k);
@@ -229,23 +229,44 @@ double ReferenceStep::corrected_force(const PairPlan& p, Memory& m, const Meetin
     return spring;
 }
 
-// Walton 1993; see theory.md. T is counted along its own direction.
+namespace {
+
+// The y of y^(1/gamma) + b y = a: for 1 and 2 in closed form, for 1/3 by two steps of Newton's method from
+// the root for b = 0, for others by one.
+double softness(double a, double b, double gamma) {
+    if (gamma == 1) return a / (1 + b);
+    if (gamma == 2) return std::pow(2 * a / (1 + std::sqrt(1 + 4 * a * b)), 2);
+    if (gamma != 1.0 / 3.0) {
+        const double y = std::pow(a, gamma);
+        return b > 0 ? std::min(y / (1 + gamma * b * y / a), a / b) : y;
+    }
+    double y = std::cbrt(a);
+    for (int k = 0; k < 2; ++k) y -= (y * y * y + b * y - a) / (3 * y * y + b);
+    return y;
+}
+
+}  // namespace
+
+// Walton 1993; see theory.md. T is counted along its own direction, and the stiffness is that of the step's
+// middle.
 Vec3 ReferenceStep::slip_force(const PairPlan& p, Memory& m, const Vec3& slip, double normal) const {
-    const double size = m.tangential.norm(), limit = p.friction * std::max(0.0, normal);
+    const double size = m.tangential.norm(), now = std::max(0.0, normal), limit = p.friction * now;
     Vec3 direction = size > 0 ? m.tangential : slip;
     if (direction.norm() > 0) direction.normalize();
     const double along = direction.dot(slip);
     const bool shrinks = along < 0, turns = shrinks != m.shrinks;
-    if (turns) m.turning_ratio = normal > 0 ? size / normal : 0;
-    const double ratio = turns ? m.turning_ratio : std::clamp(m.turning_ratio, -p.friction, p.friction);
-    const double turning = turns ? size : ratio * std::max(0.0, normal), sign = shrinks ? -1 : 1;
-    const double room = limit - sign * turning;
-    const double gone = sign * (size - turning);
-    const double base = gone < 0 ? 1 : room > 0 ? std::clamp(1 - gone / room, 0.0, 1.0) : 0;
-    const double parallel = size + p.tangential_stiffness * std::pow(base, p.gamma) * along;
-    m.turning_ratio = normal > 0 ? ratio : 0;
+    if (turns) m.turning_ratio = m.pressed > 0 ? size / m.pressed : 0;
+    m.turning_ratio = std::clamp(m.turning_ratio, -p.friction, p.friction);
+    const double sign = shrinks ? -1 : 1, middle = 0.5 * (m.pressed + now);
+    const double half = 0.5 * p.tangential_stiffness * std::abs(along);
+    const double room = std::max((p.friction - sign * m.turning_ratio) * middle, 1e-6 * half + 1e-30);
+    const double left = p.friction * middle - sign * size;
+    const double share = softness(std::clamp(left / room, 1e-9, 1 + half / room), half / room, p.gamma);
+    const double parallel = size + p.tangential_stiffness * (left > 0 ? std::min(1.0, share) : 0) * along;
+    m.pressed = now;
     m.shrinks = shrinks;
     if (parallel < 0) m.turning_ratio = -m.turning_ratio, m.shrinks = false;
+    if (now == 0) m.turning_ratio = 0;
     return capped(direction * parallel + p.tangential_stiffness * (slip - direction * along), limit);
 }
 

@@ -44,6 +44,7 @@ class ReferenceStep {
         double largest_overlap = 0, peak = 0, softness = 0;  // m, m, m/N: Walton-Braun
         Vec3 tangential{0, 0, 0}, rolling{0, 0, 0};          // N, N m, on the second body
         double turning_ratio = 0, stiffness = 0;             // incremental slip; Mindlin, N/m
+        double pressed = 0;                                  // N, last normal force: incremental slip
         bool shrinks = false;                                // incremental slip
         Vec3 velocity_before{0, 0, 0};                       // m/s: dashpots
         double force_before = 0;                             // N: dashpots

@@ -7,6 +7,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/accuracy/single_contact.hpp"
+#include "engine/lab/chart/accuracy/spins.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/lab/chart/gas.hpp"
 #include "engine/lab/chart/small_bed.hpp"
@@ -95,9 +96,17 @@ bool all_there(const Method& method, double e, double forces, const ResultTable&
            (e != 0.9 || table.has({method.name, "energy drift", number(e), number(forces)}));
 }
 
+// The cost (ns) of one force, as the table has it already, so that one measurement holds for all rows of a
+// method; else 0.
+double noted_cost(const Method& method, const ResultTable& table) {
+    for (const auto& row : table.rows())
+        if (row.at(0) == method.name) return value_in(row, 4) / value_in(row, 3);
+    return 0;
+}
+
 bool run_contacts(bool quick, ResultTable& table, ChartWork& work) {
     for (const Method& method : methods()) {
-        double cost = 0;
+        double cost = noted_cost(method, table);
         for (const double e : restitutions(quick)) {
             for (const double forces : force_counts(quick)) {
                 if (!work.next(fmt::format("{}, e = {}, {} forces a contact", method.name, e, forces)))
@@ -155,20 +164,24 @@ bool run_accuracy(const ChartRequest& request, const ChartWatcher& watcher) {
                      "setting,seed,height_m,temperature_m2s2,contacts,mixing,cost_ns", 2);
     ResultTable convergence(request.folder / "convergence.csv", "contact,law,steps,error", 3);
     ResultTable gases(request.folder / "gas.csv", "method,e,seed,contacts,steps,gained,lost", 4);
+    ResultTable spins(request.folder / "spins.csv", "law,e,degrees,steps,velocity,spin,normal,formula", 3);
     const std::size_t pieces =
-        convergence_pieces(request.quick) + gas_drift_pieces(request.quick) +
+        convergence_pieces(request.quick) + gas_drift_pieces(request.quick) + spin_pieces(request.quick) +
         methods().size() * restitutions(request.quick).size() * force_counts(request.quick).size() +
-        bed_settings(request.quick).size() * (request.quick ? 2 : 5);
+        bed_settings(request.quick).size() * (request.quick ? 2 : 5) + bed_steps_pieces(request.quick);
+    ResultTable steps(request.folder / "steps.csv",
+                      "law,steps,seed,height_m,temperature_m2s2,contacts,mixing", 3);
     ChartWork work(watcher, pieces);
-    if (!run_contacts(request.quick, contacts, work) || !run_convergence(request.quick, convergence, work) ||
-        !run_gas_drift(request.quick, gases, work) || !run_beds(request.quick, beds, work))
+    if (!run_spins(request.quick, spins, work) || !run_contacts(request.quick, contacts, work) ||
+        !run_convergence(request.quick, convergence, work) || !run_gas_drift(request.quick, gases, work) ||
+        !run_beds(request.quick, beds, work))
         return false;
     replace_file(request.folder / "differences.csv", differences_table(beds));
     return true;
 }
 
 std::string accuracy_drawing() {
-    return R"(# Draws contacts.csv, convergence.csv, gas.csv and bed.csv, and the other engines of peers.csv (made by
+    return R"(# Draws contacts.csv, convergence.csv, spins.csv, steps.csv, gas.csv and bed.csv, and the other engines of peers.csv (made by
 # tests/peers/impacts.sh) where that lies beside them: gnuplot accuracy.gp
 set datafile separator ','
 set style data linespoints
@@ -179,19 +192,12 @@ set format y "10^{%L}"
 methods = "'velocity Verlet' 'with corrections' 'mixed precision' 'leapfrog' 'position Verlet' 'Forest-Ruth' 'Gear' 'spring-dashpot' 'Hertz-Mindlin'"
 pick(method, error, e) = sprintf("< awk -F, '$1==\"%s\" && $2==\"%s\" && $3==%s {print $4\",\"$5\",\"$6}' contacts.csv", method, error, e)
 peer(e) = sprintf("< awk -F, '$1==\"LAMMPS\" && $3==%s {print $4\",\"$5\",\"$6}' peers.csv 2>/dev/null", e)
-draw_restitution(e) = sprintf("plot for [m in methods] pick(m, 'restitution', '%s') using 2:3 title m lw 2, peer('%s') using 2:3 with points pt 6 ps 1.2 lc 'black' title 'LAMMPS, spring-dashpot', 0.005 lc 'gray30' lw 2 dt 2 title 'standard: 0.005'", e, e)
 
 do for [form in "svg png"] {
     if (form eq "svg") { set terminal svg size 900,740 font 'DejaVu Sans,14' background 'white' } else { set terminal pngcairo size 1350,1110 font 'DejaVu Sans,18' }
-    set output 'restitution.'.form
-    set multiplot layout 2,1
-    set xrange [60:6000]
-    set xlabel 'cost of a contact, ns of one thread'
-    set ylabel 'largest error of e'
-    do for [e in "0.9 0.3"] { set title 'Restitution, e = '.e; eval draw_restitution(e) }
-    unset multiplot
     set xrange [*:*]
     set output 'oblique.'.form
+    set xlabel 'cost of a contact, ns of one thread'
     set multiplot layout 2,1
     set ylabel 'largest error / speed'
     set title 'Tangential velocity after an impact at 0 to 85 degrees, e = 0.9'
@@ -202,7 +208,7 @@ do for [form in "svg png"] {
     unset multiplot
     unset title
 )" + std::string(convergence_drawing()) +
-           gas_drift_drawing() +
+           spins_drawing() + speed_drawing() + gas_drift_drawing() +
            R"(    set output 'bed.'.form
     unset logscale
     set format xy '%g'

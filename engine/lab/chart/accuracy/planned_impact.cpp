@@ -22,7 +22,7 @@ std::string scene_text(const ImpactScene& impact) {
            species_text("b", second, impact.density_ratio * bench_density) +
            fmt::format("[contact]\nrestitution = {:.17g}\nfriction = {:.17g}\n", impact.restitution,
                        impact.friction) +
-           "[container]\nshape = \"none\"\n" +
+           impact.law + "[container]\nshape = \"none\"\n" +
            fmt::format("[[grain]]\nspecies = \"a\"\nposition = [0, 0, 0]\nvelocity = [{:.17g}, 0, 0]\n",
                        impact.speed) +
            (impact.wall ? fmt::format("[[wall]]\npoint = [{:.17g}, 0, 0]\nnormal = [-1, 0, 0]\n", apart)

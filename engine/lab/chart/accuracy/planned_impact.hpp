@@ -15,6 +15,7 @@ struct ImpactScene {
     double speed = 0.3;                        // m/s
     double size_ratio = 1, density_ratio = 1;  // of the second grain to the first, which has bench_radius
     bool wall = false;                         // a plane in place of the second grain
+    std::string law;                           // more lines of [contact], such as its laws
 };
 
 // The plan of the impact. Species 0 is the first grain, species 1 the second.

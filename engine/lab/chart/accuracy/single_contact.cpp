@@ -119,8 +119,7 @@ ObliqueErrors oblique_errors(const Method& method, double restitution, double st
     reference.integrator = Integrator::velocity_verlet;
     if (reference.normal == NormalForce::walton_braun_corrected) reference.normal = NormalForce::walton_braun;
     // The corrected law is of second order, which makes it the better reference.
-    if (reference.normal == NormalForce::walton_braun && method.tangential == TangentialLaw::linear_spring)
-        reference.normal = NormalForce::walton_braun_corrected;
+    if (reference.normal == NormalForce::walton_braun) reference.normal = NormalForce::walton_braun_corrected;
     ObliqueErrors errors;
     for (int degrees = 0; degrees <= 85; degrees += 5) {
         const double angle = degrees * pi / 180;
