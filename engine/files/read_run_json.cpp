@@ -199,6 +199,8 @@ ReadRunJson read_run_json(const std::filesystem::path& path) {
     take(document, "accepted", r.accepted);
     take(document, "drawn", r.drawn);
     take(document, "panels", r.panels);
+    take(document, "captions", r.captions);
+    take(document, "title", r.title);
     take(document, "wall_s", r.wall_seconds);
     r.film_frames.reset();
     const Json& written = member(document, "written");

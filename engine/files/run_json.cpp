@@ -178,6 +178,8 @@ void write_run_json(const std::filesystem::path& path, const RunJson& r) {
         {"accepted", accepted(r)},
         {"drawn", drawn(r)},
         {"panels", r.panels},
+        {"captions", r.captions},
+        {"title", text_or_null(r.title)},
         {"wall_s", table(r.wall_seconds)},
         {"written",
          {{"film_frames", r.film_frames ? Json(*r.film_frames) : Json(nullptr)},

@@ -61,6 +61,8 @@ struct RunJson : ProgramInfo {
     // For a film that shows several runs side by side (in panels): the folders with the files of each, in
     // this folder or of another run.
     std::vector<std::string> panels;
+    std::vector<std::string> captions;  // of the panels, as --captions gave them; empty without it
+    std::string title;                  // on that film
 
     std::string command;  // as typed, with words quoted where the shell needs it
     std::string scene_file;

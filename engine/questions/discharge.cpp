@@ -50,6 +50,22 @@ std::string rate_text(const Estimate& rate) {
     return fmt::format("{:.{}f} ± {:.{}f} kg/s", rate.value, decimals, rate.half_width, decimals);
 }
 
+// What the answer says where it has no time of emptying; empty where it has one.
+std::string why_not_emptied(const Discharge& flow, const Scene& scene) {
+    if (flow.emptied) return "";
+    if (!scene.feeds.empty()) return "emptied: none, because a feed brings more";
+    if (flow.would_empty) return "emptied: none, the run ended before";
+    return fmt::format("emptied: none, {:.2g} % of the mass stay inside",
+                       100 * (1 - flow.mass / total_mass(scene)));
+}
+
+std::string why_no_beverloo(const Scene& scene) {
+    if (beverloo_rate(scene)) return "";
+    if (!scene.container.outlet) return "it is for an outlet in the floor (container.outlet)";
+    if (!is_upright(scene)) return "it is for gravity along -z and a vessel that does not turn";
+    return fmt::format("the outlet is too small for grains of {:.4g} mm", 1000 * mean_diameter(scene));
+}
+
 }  // namespace
 
 std::optional<double> beverloo_rate(const Scene& scene) {
@@ -161,11 +177,14 @@ Answer discharge_answer(const StoredRun& run) {
           maybe(flow->emptied), maybe(flow->would_empty), maybe(beverloo_rate(scene))}}};
     Answer answer{{std::move(table)}, {}};
     if (!flow->rate.why.empty()) answer.notes.push_back("no interval of the rate, " + flow->rate.why);
-    if (beverloo_rate(scene))
-        answer.notes.push_back(
-            fmt::format("Beverloo's law: {}, ρ = {} of the grains' density (Beverloo, Leniger, van "
-                        "de Velde 1961; slots: Nedderman 1992)",
-                        beverloo_words(scene), flowing_fraction));
+    if (const std::string why = why_not_emptied(*flow, scene); !why.empty()) answer.notes.push_back(why);
+    const std::string unknown = why_no_beverloo(scene);
+    answer.notes.push_back(
+        unknown.empty()
+            ? fmt::format("Beverloo's law: {}, ρ = {} of the grains' density (Beverloo, Leniger, van "
+                          "de Velde 1961; slots: Nedderman 1992)",
+                          beverloo_words(scene), flowing_fraction)
+            : "Beverloo's law: expects no rate here, " + unknown);
     return answer;
 }
 

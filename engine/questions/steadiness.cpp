@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/text.hpp"
@@ -276,8 +277,8 @@ Estimate mean_estimate(const std::vector<double>& times, const std::vector<doubl
     const std::vector<double> means = values_of(tested);
     all.independent = independent_values(rows_behind(rows, parts, period));
     if (all.independent < kLeastIndependent || correlation_of(means) > chance_of_correlation(means.size()))
-        all.why = fmt::format("too short: the rows hang together and are worth {:.0f} independent values",
-                              std::floor(all.independent));
+        all.why = fmt::format("too short: the rows hang together and are worth {}",
+                              counted(std::floor(all.independent), "independent value"));
     else
         all.half_width = mean_interval(means).half * widening(means);
     return all;

@@ -180,7 +180,9 @@ std::unique_ptr<CLI::App> make_parser(const Verbs& verbs) {
     keep_lines(*app->get_formatter());
     app->footer(
         as_called("Begin with:  grainreel movie wedge_segregation\n"
-                  "More about a verb:  grainreel movie --help"));
+                  "More about a verb:  grainreel movie --help\n"
+                  "From a question to a film or a figure: docs/guide/lesson.md for a lesson, "
+                  "docs/guide/paper.md for a paper"));
     for (const auto& verb : verbs) add_verb(*app, *verb);
     return app;
 }

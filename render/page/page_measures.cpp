@@ -12,6 +12,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/page/embed.hpp"
+#include "render/scene/axis_titles.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -35,6 +36,13 @@ std::vector<std::pair<std::string, double>> units_of(Dimension dimension) {
     return units;
 }
 
+// A label that says its unit fixes that of the chart.
+void name_by_plot(PageColumn& column, const FilmPlot& plot) {
+    const LabelParts label = label_parts(plot.label, plot.dimension);
+    column.label = label.words;
+    if (!label.unit.empty()) column.units = {{label.unit, unit_size(label.unit, plot.dimension)}};
+}
+
 std::vector<PageColumn> columns_of(const FilmedScene& scene, const MeasureTable& table) {
     const std::vector<MeasureColumn> known = measure_columns(scene);
     std::vector<PageColumn> columns;
@@ -51,7 +59,7 @@ std::vector<PageColumn> columns_of(const FilmedScene& scene, const MeasureTable&
         }
         for (const FilmPlot& plot : scene.film.shows.plots)
             if (plot.column == name) {
-                column.label = plot.label;
+                name_by_plot(column, plot);
                 column.smooth = plot.period && scene.drive.present;
             }
         columns.push_back(std::move(column));

@@ -234,44 +234,49 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
     return html;
 }
 
-std::string bed_about(const PageBed& bed, const PageMeshes& meshes, const FilmedScene& scene) {
+std::string bed_about(const PageBed& bed, const PageMeshes& meshes, const FilmedScene& scene,
+                      const PageWords& say) {
     const Vec3 error = 1e6 * bed.error();
-    std::string text = fmt::format(
-        "Places are rounded to 16 bits over the box that the grains reach: they are off by {:.2g} µm along "
-        "x, {:.2g} "
-        "µm along y and {:.2g} µm along z at most. Speeds are right to 2.3 % and come from the run, not from "
-        "differences of places. Nothing is interpolated between moments. ",
-        error.x(), error.y(), error.z());
-    if (bed.moments.size() == bed.all_moments)
-        text += bed.all_moments == 1
-                    ? "This is the only moment that the run kept."
-                    : fmt::format("These are all {} moments that the run kept.", bed.all_moments);
+    const auto number = [](std::size_t count) { return std::to_string(count); };
+    std::string text =
+        say("Places are rounded to 16 bits over the box that the grains reach: they are off by {1} µm along "
+            "x, {2} µm "
+            "along y and {3} µm along z at most. Speeds are right to 2.3 % and come from the run, not from "
+            "differences of places. Nothing is interpolated between moments.",
+            {fmt::format("{:.2g}", error.x()), fmt::format("{:.2g}", error.y()),
+             fmt::format("{:.2g}", error.z())});
+    const auto add = [&](const std::string& sentence) { text += " " + sentence; };
+    if (bed.moments.size() != bed.all_moments)
+        add(say(
+            "Of the {1} moments that the run kept these are {2}, evenly spread; the page has no room for the "
+            "others.",
+            {number(bed.all_moments), number(bed.moments.size())}));
+    else if (bed.all_moments == 1)
+        add(say("This is the only moment that the run kept."));
     else
-        text += fmt::format(
-            "Of the {} moments that the run kept these are {}, evenly spread; the page has no room for "
-            "the others.",
-            bed.all_moments, bed.moments.size());
+        add(say("These are all {1} moments that the run kept.", {number(bed.all_moments)}));
     if (bed.grains < bed.all_grains)
-        text += fmt::format(
-            " Of {} grains it shows the {} that lay nearest to the middle of the depth when they were "
-            "first seen.",
-            bed.all_grains, bed.grains);
+        add(say(
+            "Of {1} grains it shows the {2} that lay nearest to the middle of the depth when they were first "
+            "seen.",
+            {number(bed.all_grains), number(bed.grains)}));
     if (bed.counted == 0)
-        text += " The run kept no contact numbers.";
+        add(say("The run kept no contact numbers."));
     else if (bed.counted < bed.moments.size())
-        text += fmt::format(" Contact numbers are known at {} of them.", bed.counted);
+        add(say("Contact numbers are known at {1} of them.", {number(bed.counted)}));
     if (bed.has_film_colours && bed.film_coloured < bed.moments.size())
-        text += fmt::format(" What the film's colours stand for is known at {} of them.", bed.film_coloured);
+        add(say("What the film's colours stand for is known at {1} of them.", {number(bed.film_coloured)}));
     if (!bed.forces.moments.empty())
-        text += fmt::format(
-            " Of {} the page has the pairs that push each other, with their normal forces to 2.3 %.",
-            counted(bed.forces.moments.size(), "moment"));
-    if (scene.container.wall_grains) text += " Grains that are glued to walls are not shown.";
+        add(say(
+            "At {1} of them the page has the pairs that push each other, with their normal forces to 2.3 %.",
+            {number(bed.forces.moments.size())}));
+    if (scene.container.wall_grains) add(say("Grains that are glued to walls are not shown."));
+    std::string html = html_text(text);
     for (std::string note : meshes.notes()) {
         note.front() = 'T';
-        text += fmt::format(" {}.", note);
+        html += fmt::format(" <span{}>{}.</span>", say.on_english(), html_text(note));
     }
-    return html_text(text);
+    return html;
 }
 
 namespace {

@@ -35,7 +35,8 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
                       const std::string& n = "", bool beside = true);
 
 // Says which of the bed's moments the page has, and how exact they are.
-std::string bed_about(const PageBed& bed, const PageMeshes& meshes, const FilmedScene& scene);
+std::string bed_about(const PageBed& bed, const PageMeshes& meshes, const FilmedScene& scene,
+                      const PageWords& say);
 
 // The scene's captions as buttons that go to their moments, with the values of measures.csv in the run's
 // folder; empty without captions.

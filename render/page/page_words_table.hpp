@@ -125,6 +125,105 @@ inline constexpr auto page_rows = std::to_array<PageRow>({
      {"Die Schüttung wird nicht gezeigt: {1}. Film und Kurven gehen ohne sie.",
       "Le lit n’est pas montré : {1}. Film et courbes s’en passent.",
       "El lecho no se muestra: {1}. Película y curvas funcionan sin él."}},
+    {"Places are rounded to 16 bits over the box that the grains reach: they are off by {1} µm along x, {2} "
+     "µm "
+     "along y and {3} µm along z at most. Speeds are right to 2.3 % and come from the run, not from "
+     "differences of "
+     "places. Nothing is interpolated between moments.",
+     {"Orte sind auf 16 Bit gerundet, über den Quader, den die Körner erreichen: Sie sind höchstens um {1} "
+      "µm in x, "
+      "{2} µm in y und {3} µm in z falsch. Geschwindigkeiten stimmen auf 2.3 % und stammen aus dem Lauf, "
+      "nicht aus "
+      "Differenzen der Orte. Zwischen den Momenten ist nichts interpoliert.",
+      "Les positions sont arrondies à 16 bits sur la boîte que les grains atteignent : l’erreur est d’au "
+      "plus {1} µm "
+      "en x, {2} µm en y et {3} µm en z. Les vitesses sont justes à 2.3 % près et viennent du calcul, non de "
+      "différences de positions. Rien n’est interpolé entre les instants.",
+      "Las posiciones están redondeadas a 16 bits en la caja que alcanzan los granos: el error es como "
+      "máximo de {1} "
+      "µm en x, {2} µm en y y {3} µm en z. Las velocidades son exactas al 2.3 % y vienen de la simulación, "
+      "no de "
+      "diferencias de posiciones. Nada se interpola entre los instantes."}},
+    {"This is the only moment that the run kept.",
+     {"Das ist der einzige Moment, den der Lauf aufbewahrt hat.",
+      "C’est le seul instant que le calcul a gardé.", "Es el único instante que guardó la simulación."}},
+    {"These are all {1} moments that the run kept.",
+     {"Das sind alle {1} Momente, die der Lauf aufbewahrt hat.",
+      "Ce sont tous les {1} instants que le calcul a gardés.",
+      "Son todos los {1} instantes que guardó la simulación."}},
+    {"Of the {1} moments that the run kept these are {2}, evenly spread; the page has no room for the "
+     "others.",
+     {"Von den {1} Momenten, die der Lauf aufbewahrt hat, sind das {2}, gleichmäßig verteilt; für die "
+      "anderen hat "
+      "die Seite keinen Platz.",
+      "Des {1} instants que le calcul a gardés, en voici {2}, répartis régulièrement ; la page n’a pas de "
+      "place pour "
+      "les autres.",
+      "De los {1} instantes que guardó la simulación estos son {2}, repartidos por igual; la página no tiene "
+      "sitio "
+      "para los demás."}},
+    {"Of {1} grains it shows the {2} that lay nearest to the middle of the depth when they were first seen.",
+     {"Von {1} Körnern zeigt sie die {2}, die am Anfang der Mitte der Tiefe am nächsten lagen.",
+      "Des {1} grains on voit les {2} qui étaient d’abord le plus près du milieu de la profondeur.",
+      "De {1} granos muestra los {2} que al principio estaban más cerca del medio de la profundidad."}},
+    {"The run kept no contact numbers.",
+     {"Zahlen der Kontakte hat der Lauf nicht aufbewahrt.", "Le calcul n’a pas gardé de nombres de contacts.",
+      "La simulación no guardó números de contactos."}},
+    {"Contact numbers are known at {1} of them.",
+     {"Zahlen der Kontakte sind an {1} davon bekannt.",
+      "Les nombres de contacts sont connus à {1} d’entre eux.",
+      "Los números de contactos se conocen en {1} de ellos."}},
+    {"What the film's colours stand for is known at {1} of them.",
+     {"Wofür die Farben des Films stehen, ist an {1} davon bekannt.",
+      "Ce que montrent les couleurs du film est connu à {1} d’entre eux.",
+      "Lo que muestran los colores de la película se conoce en {1} de ellos."}},
+    {"At {1} of them the page has the pairs that push each other, with their normal forces to 2.3 %.",
+     {"An {1} davon hat die Seite die Paare, die einander drücken, mit ihren Normalkräften auf 2.3 %.",
+      "À {1} d’entre eux la page a les paires qui se poussent, avec leurs forces normales à 2.3 % près.",
+      "En {1} de ellos la página tiene los pares que se empujan, con sus fuerzas normales al 2.3 %."}},
+    {"Grains that are glued to walls are not shown.",
+     {"Körner, die an Wänden kleben, sind nicht gezeigt.",
+      "Les grains collés aux parois ne sont pas montrés.",
+      "Los granos pegados a las paredes no se muestran."}},
+    {"The newest moment that the run has written. Places are rounded to 16 bits over the box that the grains "
+     "reach.",
+     {"Der neueste Moment, den der Lauf geschrieben hat. Orte sind auf 16 Bit gerundet, über den Quader, den "
+      "die "
+      "Körner erreichen.",
+      "L’instant le plus récent que le calcul a écrit. Les positions sont arrondies à 16 bits sur la boîte "
+      "que les "
+      "grains atteignent.",
+      "El instante más reciente que escribió la simulación. Las posiciones están redondeadas a 16 bits en la "
+      "caja que "
+      "alcanzan los granos."}},
+    {"How fast the grains flow out",
+     {"Wie schnell die Körner ausfließen", "À quelle vitesse les grains s’écoulent",
+      "Con qué rapidez salen los granos"}},
+    {"run", {"Lauf", "calcul", "simulación"}},
+    {"measured, {1}", {"gemessen, {1}", "mesuré, {1}", "medido, {1}"}},
+    {"Beverloo’s law, {1}", {"Gesetz von Beverloo, {1}", "loi de Beverloo, {1}", "ley de Beverloo, {1}"}},
+    {"measured / law", {"gemessen / Gesetz", "mesuré / loi", "medido / ley"}},
+    {"empty at, s", {"leer bei, s", "vide à, s", "vacío a los, s"}},
+    {"The rate between the moments at which 10 % and 70 % of all that flows out were out, with its interval "
+     "of 95 %. "
+     "Beverloo’s law knows the outlet and the grains alone; friction and slanted walls change the rate by 20 "
+     "% and "
+     "more.",
+     {"Die Rate zwischen den Momenten, an denen 10 % und 70 % von allem draußen waren, was ausfließt, mit "
+      "ihrem "
+      "Intervall von 95 %. Das Gesetz von Beverloo kennt nur die Öffnung und die Körner; Reibung und schräge "
+      "Wände "
+      "ändern die Rate um 20 % und mehr.",
+      "Le débit entre les instants où 10 % et 70 % de tout ce qui s’écoule étaient sortis, avec son "
+      "intervalle de 95 "
+      "%. La loi de Beverloo ne connaît que l’orifice et les grains ; le frottement et les parois inclinées "
+      "changent "
+      "le débit de 20 % et plus.",
+      "El caudal entre los instantes en que había salido el 10 % y el 70 % de todo lo que sale, con su "
+      "intervalo del "
+      "95 %. La ley de Beverloo solo conoce la abertura y los granos; el rozamiento y las paredes inclinadas "
+      "cambian "
+      "el caudal un 20 % y más."}},
     {"Colour by", {"Farbe nach", "Couleur selon", "Color según"}},
     {"species", {"Sorte", "espèce", "especie"}},
     {"speed (logarithmic)",

@@ -7,6 +7,7 @@
 
 #include "engine/base/plain_file.hpp"
 #include "render/page/embed.hpp"
+#include "render/page/facts/outflow_table.hpp"
 #include "render/page/facts/run_names.hpp"
 #include "render/page/run_part.hpp"
 #include "render/page/shown_film.hpp"
@@ -23,14 +24,14 @@ constexpr double films_share = 0.7;  // share of the progress: making a film sma
 class Page {
   public:
     Page(const std::vector<PageRun>& runs, const fs::path& out, const PageProgress& progress,
-         const fs::path& film_of_all)
-        : out_(out), film_of_all_(film_of_all), progress_(progress) {
+         const PageOfAll& of_all)
+        : out_(out), of_all_(of_all), progress_(progress) {
         const bool alone = runs.size() == 1;
         const std::size_t most_film =
-            std::min(kMostFilmOnPage, most_film_bytes / (runs.size() + (film_of_all.empty() ? 0 : 1)));
+            std::min(kMostFilmOnPage, most_film_bytes / (runs.size() + (of_all.film.empty() ? 0 : 1)));
         most_film_ = most_film;
         std::vector<RunToName> to_name;
-        for (const PageRun& run : runs) to_name.push_back({run.folder, run.scene});
+        for (const PageRun& run : runs) to_name.push_back({run.folder, run.scene, run.name});
         const std::vector<std::string> names = names_of_runs(to_name);
         for (std::size_t k = 0; k < runs.size(); ++k)
             parts_.emplace_back(runs[k], names[k], alone ? "" : fmt::format("-{}", k), most_film);
@@ -69,8 +70,8 @@ class Page {
         const double each = 1.0 / static_cast<double>(parts_.size());
         std::size_t taken = script().size();
         double done = 0;
-        if (!film_of_all_.empty())
-            all_.emplace(parts_.front().scene(), film_of_all_, most_film_, kNoPageProgress);
+        if (!of_all_.film.empty())
+            all_.emplace(parts_.front().scene(), of_all_.film, most_film_, kNoPageProgress);
         if (all_) taken += all_->taken();
         for (RunPart& part : parts_) {
             part.read([&](double share) { return progress_(films_share * (done + each * share)); });
@@ -99,7 +100,8 @@ class Page {
                    {{"film", part.film(beside)},
                     {"bed", part.bed()},
                     {"fields", part.fields(2)},
-                    {"charts", filled(say().in(files.charts), {{"about", part.charts_about()}})}});
+                    {"charts", filled(say().in(files.charts), {{"about", part.charts_about()}})}}) +
+            outflow();
         return frame({{"title", part.title()},
                       {"body_class", ""},
                       {"lead", part.lead()},
@@ -140,8 +142,8 @@ class Page {
              {"lead", fmt::format("<p class=\"lead\">{}</p>\n",
                                   html_text(say()("{1} runs side by side, at the same time of each run.",
                                                   {std::to_string(parts_.size())})))},
-             {"body", fmt::format("{}<div class=\"variants\">\n{}</div>\n{}{}", film_of_all(), columns,
-                                  charts, differences())},
+             {"body", fmt::format("{}<div class=\"variants\">\n{}</div>\n{}{}{}", film_of_all(), columns,
+                                  charts, outflow(), differences())},
              {"words", words},
              {"facts", json_in_html(say().with_words(facts()))},
              {"blobs", beds + late + (all_ ? blob("film-bytes-all", all_->bytes()) : "")}});
@@ -158,7 +160,7 @@ class Page {
             "<section aria-labelledby=\"film-title\">\n<h2 id=\"film-title\">{}</h2>\n{}<p "
             "id=\"film-says-all\" class=\"faint no-print\"></p>\n</section>\n",
             html_text(say()("The film of all of them")),
-            all_->html(about, say(), "-all", fs::equivalent(folder, film_of_all_, ignored)));
+            all_->html(about, say(), "-all", fs::equivalent(folder, of_all_.film, ignored)));
     }
 
     // A line with the folder's name, if the run has another name.
@@ -169,13 +171,22 @@ class Page {
                    : fmt::format("<p class=\"faint\">{}</p>\n", html_text(say()("Folder {1}", {folder})));
     }
 
-    // The title that all runs share, "Brazil nut: ", if their names only tell what differs.
+    // The title of the film of all, or the one that all runs share, before the names of the runs.
     std::string common_title() const {
-        const std::string& title = parts_.front().scene().title;
-        const bool common =
-            !title.empty() && std::all_of(parts_.begin(), parts_.end(),
-                                          [&](const RunPart& part) { return part.scene().title == title; });
-        return common ? html_text(title) + ": " : "";
+        std::string title = of_all_.title;
+        if (title.empty()) title = parts_.front().scene().title;
+        const bool common = !of_all_.title.empty() ||
+                            std::all_of(parts_.begin(), parts_.end(),
+                                        [&](const RunPart& part) { return part.scene().title == title; });
+        if (title.empty() || !common) return "";
+        const bool ended = std::string_view("?!.:").find(title.back()) != std::string_view::npos;
+        return html_text(title) + (ended ? " " : ": ");
+    }
+
+    std::string outflow() const {
+        std::vector<RunToName> runs;
+        for (const RunPart& part : parts_) runs.push_back({part.folder(), part.scene(), part.name()});
+        return outflow_html(runs, say());
     }
 
     std::string differences() const {
@@ -210,7 +221,8 @@ class Page {
         return texts;
     }
 
-    const fs::path out_, film_of_all_;
+    const fs::path out_;
+    const PageOfAll of_all_;
     std::size_t most_film_ = kMostFilmOnPage;
     std::optional<ShownFilm> all_;  // the film that shows all runs
     const PageProgress& progress_;
@@ -220,9 +232,9 @@ class Page {
 }  // namespace
 
 std::optional<ReportMade> write_report(const std::vector<PageRun>& runs, const fs::path& out,
-                                       const PageProgress& progress, const fs::path& film_of_all) {
+                                       const PageProgress& progress, const PageOfAll& of_all) {
     try {
-        return Page(runs, out, progress, film_of_all).write();
+        return Page(runs, out, progress, of_all).write();
     } catch (const PageStopped&) {
         return std::nullopt;
     }

@@ -37,13 +37,18 @@ struct PageRun {
     std::shared_ptr<StoredRun> run;          // null for a run that kept no moment of its grains
     std::optional<PlannedScene> planned;     // empty when the scene cannot be planned any more
     std::filesystem::path film_folder = {};  // where film and poster lie; empty: in the run's folder
+    std::string name = {};                   // that the user gave it
+};
+
+// What shows all runs of a page together.
+struct PageOfAll {
+    std::filesystem::path film;  // folder of the film that shows them side by side; empty: there is none
+    std::string title;           // of that film; empty: the title that the runs share
 };
 
 // Writes the page of one run, or of several side by side on one time axis. It is written completely or not at
-// all. film_of_all: the folder of a film that shows all of them side by side; empty: there is none. Returns
-// none when `progress` stopped it. Throws RunError when it cannot be written.
+// all. Returns none when `progress` stopped it. Throws RunError when it cannot be written.
 std::optional<ReportMade> write_report(const std::vector<PageRun>& runs, const std::filesystem::path& out,
-                                       const PageProgress& progress,
-                                       const std::filesystem::path& film_of_all = {});
+                                       const PageProgress& progress, const PageOfAll& of_all = {});
 
 }  // namespace grainreel

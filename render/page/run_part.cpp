@@ -196,8 +196,7 @@ std::string RunPart::film(bool beside) const {
 
 std::string RunPart::bed() const {
     if (!run_.run) return fmt::format("<p>{}, so there is no bed to turn.</p>\n", no_moments());
-    return filled(say_.in(page_files().bed),
-                  {{"about", bed_about(bed_, meshes_, scene())}, {"n", n_}, {"english", say_.on_english()}});
+    return filled(say_.in(page_files().bed), {{"about", bed_about(bed_, meshes_, scene(), say_)}, {"n", n_}});
 }
 
 std::string RunPart::fields(int level) const {

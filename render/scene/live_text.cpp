@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
@@ -51,6 +53,18 @@ LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& 
     return value;
 }
 
+// The length of the unit that a value brings along, where it stands behind the value once more: 2 for " g of
+// sand" and "g"; else 0.
+std::size_t length_of_unit(std::string_view behind, std::string_view unit) {
+    const std::size_t blanks = std::min(behind.find_first_not_of(' '), behind.size());
+    const std::string_view word = behind.substr(blanks);
+    if (unit.empty() || !word.starts_with(unit)) return 0;
+    const std::string_view rest = word.substr(unit.size());
+    const bool ends =
+        rest.empty() || std::string_view(" \n,;.:!?)").find(rest.front()) != std::string_view::npos;
+    return ends ? blanks + unit.size() : 0;
+}
+
 }  // namespace
 
 const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, const std::string& name) {
@@ -84,7 +98,7 @@ std::vector<LiveWords> parse_live_text(const std::string& text, const std::vecto
         all.push_back(value_of(text.substr(at + 1, end - at - 1), columns));
         all.back().words = std::move(words);
         words.clear();
-        at = end;
+        at = end + length_of_unit(std::string_view(text).substr(end + 1), all.back().unit);
     }
     if (!words.empty()) all.push_back({std::move(words), "", "", 1});
     return all;

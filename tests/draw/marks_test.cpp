@@ -184,6 +184,36 @@ TEST(Plots, TheUnitIsThatOfWhatIsExpected) {
     EXPECT_NE(title(0, {{0, 0}, {1, 2e-8}}), late) << "not known";
 }
 
+// "sand (g)" is drawn as the words "sand" with that unit are, and not as "sand (g) (mg)".
+TEST(Plots, ALabelMaySayItsUnit) {
+    const FilmedScene scene = wedge(1280, 720);
+    const auto drawn = [&](const std::string& label, double expected) {
+        PlotRange size = any_plot();
+        FilmPlot shown;
+        shown.column = "outflow_kg";
+        shown.label = label;
+        shown.dimension = Dimension::mass;
+        PlotRange frame = plot_frame(scene, shown);
+        frame.width = size.width;
+        frame.height = size.height;
+        frame.expected = expected;
+        frame.column = size.column;
+        Plot plot(frame, type_scale(scene.film), make_palette(scene.film.background));
+        plot.take(frame_with_rows({{0, 0}, {1, 2e-4}}));
+        const CairoSurface surface = blank_surface({0, 0, frame.width, frame.height}, {1, 1, 1});
+        plot.draw(CairoContext(cairo_create(surface.get())).get(), 0, 0);
+        Picture picture(frame.width, frame.height);
+        copy_surface(surface.get(), {0, 0, frame.width, frame.height}, picture);
+        std::vector<int> pixels;
+        for (int y = 0; y < frame.height; ++y)
+            for (int x = 0; x < frame.width; ++x) pixels.push_back(picture.pixel(x, y)[0]);
+        return pixels;
+    };
+    EXPECT_EQ(drawn("sand (mg)", 0), drawn("sand", 0)) << "the unit that it would choose";
+    EXPECT_EQ(drawn("sand (g)", 0), drawn("sand", 1e-3)) << "another one";
+    EXPECT_NE(drawn("sand (g)", 0), drawn("sand", 0));
+}
+
 // There are four rows a period, which vary by 1 about the number of the period.
 TEST(Plots, MeansOfAPeriodHaveNoSwing) {
     const FilmedScene scene = wedge(1280, 720);

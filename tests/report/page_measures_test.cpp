@@ -31,6 +31,18 @@ TEST(PageMeasures, PlotsOfTheFilmComeFirstAndWhatNeverChangesIsLeftOut) {
     EXPECT_THAT(page.rows, ElementsAre(0u, 1u));
 }
 
+TEST(PageMeasures, ALabelThatSaysItsUnitFixesThatOfTheChart) {
+    FilmedScene scene;
+    scene.film.shows.plots = {{"lost_J", "lost energy (mJ)", {}, Dimension::energy}};
+    MeasureTable table({"step", "time_s", "kinetic_J", "lost_J"});
+    table.add({0, 0, 0, 0});
+    table.add({1, 1, 1, 2});
+    const PageMeasures page = page_measures(scene, table);
+    EXPECT_EQ(page.columns[3].label, "lost energy");
+    EXPECT_THAT(page.columns[3].units, ElementsAre(std::pair<std::string, double>("mJ", 1e-3)));
+    EXPECT_GT(page.columns[2].units.size(), 1u);
+}
+
 TEST(PageMeasures, LongTablesAreThinnedEvenly) {
     MeasureTable table({"time_s", "kinetic_J"});
     for (int row = 0; row < 9000; ++row) table.add({0.1 * row, 1.0 * row});

@@ -57,6 +57,10 @@ TEST(RunNames, SayWhatDiffersUnderOneTitle) {
     two.add("c", {"run.seed=2", "species.big.diameter=5 mm"});
     EXPECT_THAT(two.names(), ElementsAre("seed = 1, diameter = 6 mm", "seed = 2, diameter = 6 mm",
                                          "seed = 2, diameter = 5 mm"));
+    Runs german;
+    german.add("a", {"contact.friction=0.4", "film.lang=de"});
+    german.add("b", {"contact.friction=0.2", "film.lang=de"});
+    EXPECT_THAT(german.names(), ElementsAre("Reibung = 0.4", "Reibung = 0.2"));
     Runs outlet;  // an inline table in scene.toml
     outlet.add("a", {"container.outlet={ width=\"8 mm\", opens=0.05 }"});
     outlet.add("b", {"container.outlet={ width=\"9 mm\", opens=0.05 }"});

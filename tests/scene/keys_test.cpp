@@ -147,6 +147,7 @@ TEST(Keys, NearestKeyForgivesSwapsAndSlips) {
     EXPECT_EQ(advice_for_unknown_key("container.slantheight", filmed_scene_keys()),
               "did you mean 'slant_height'?");
     EXPECT_EQ(advice_for_unknown_key("film.camera.quality", filmed_scene_keys()), "it belongs in [film]");
+    EXPECT_EQ(advice_for_unknown_key("outlet", filmed_scene_keys()), "did you mean 'container.outlet'?");
     // The gamma of a contact is something else.
     for (const char* drive : {"drive", "drive.stage[0]"})
         for (const char* name : {"gamma", "Gamma", "Γ", "acceleration"})

@@ -39,6 +39,15 @@ TEST(LiveText, ShowsValuesInTheirUnits) {
     EXPECT_EQ(shown("{outflow_rate} {outflow_rate:g/s} {outflow}", 0.0025), "0.0025 kg/s 2.5 g/s 0.0025 kg");
 }
 
+// The unit comes with the value, so words that have it too do not double it.
+TEST(LiveText, AUnitStandsOnce) {
+    EXPECT_EQ(shown("{outflow_kg:g} g of sand", 0.0337), "33.7 g of sand");
+    EXPECT_EQ(shown("{outflow_kg:g}g, no more", 0.0337), "33.7 g, no more");
+    EXPECT_EQ(shown("{outflow_kg:g} grains", 0.0337), "33.7 g grains");
+    EXPECT_EQ(shown("{outflow_kg:g} kg", 0.0337), "33.7 g kg");
+    EXPECT_EQ(shown("{lacey} g", 0.5), "0.5 g");
+}
+
 TEST(LiveText, SaysWhatIsWrong) {
     const auto complaint = [](const std::string& text) -> std::string {
         try {

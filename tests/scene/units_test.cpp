@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "engine/base/error.hpp"
+#include "render/scene/axis_titles.hpp"
 
 namespace grainreel {
 namespace {
@@ -112,6 +113,25 @@ TEST(Units, HaveASizeInTheirDimension) {
     EXPECT_EQ(unit_size_in("g", Dimension::mass), 1e-3);
     for (const char* word : {"", "s", "-", "1", "grain", "2 mm"})
         EXPECT_FALSE(unit_size_in(word, Dimension::length)) << word;
+}
+
+TEST(Units, LabelsMaySayTheirOwn) {
+    const auto parts = [](const char* label, Dimension dimension) {
+        const LabelParts found = label_parts(label, dimension);
+        return found.words + "|" + found.unit;
+    };
+    for (const char* label : {"sand (g)", "sand [g]", "sand, g", "sand in g"})
+        EXPECT_EQ(parts(label, Dimension::mass), "sand|g") << label;
+    EXPECT_EQ(parts("Höhe der Großen (cm)", Dimension::length), "Höhe der Großen|cm");
+    EXPECT_EQ(parts("pushed, kg/s", Dimension::mass_flow), "pushed|kg/s");
+    // Words that are no unit of the quantity stay where they are.
+    for (const char* label :
+         {"sand", "sand (mm)", "sand (fine)", "(g)", "bed in the box", "sand (g) left", ""})
+        EXPECT_EQ(parts(label, Dimension::mass), std::string(label) + "|");
+    EXPECT_EQ(parts("share (m)", Dimension::number), "share (m)|");
+    EXPECT_EQ(with_unit("sand (g)", "kg", Dimension::mass), "sand (kg)");
+    EXPECT_EQ(with_unit("sand", "kg", Dimension::mass), "sand (kg)");
+    EXPECT_EQ(with_unit("share", ""), "share");
 }
 
 TEST(Units, AreSafeFromSeveralThreads) {

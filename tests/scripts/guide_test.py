@@ -10,7 +10,6 @@ nothing else is changed.
 
 --table prints the table as it must be. --pictures draws the page's pictures. --list tells what would be run.
 """
-import os
 import pathlib
 import re
 import shlex
@@ -21,34 +20,16 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import guide_files  # noqa: E402
+from guide_blocks import PYTHON, blocks, check, missing, run  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/guide/other-programs.md"
-WINDOWS = {"paraview", "blender", "ovito", "yade"}
 SMALL = {"render": "--size 160x90", "compare": "--size 640x360"}
-PYTHON = "/usr/bin/python3"
 
 # Which writer's files a reader takes: of its formats the ones that are the same.
 SAME = {"lammps-dump": "lammps-dump", "lammps-data": "lammps-data", "vtk-xml": "vtk", "gsd": "gsd", "amber": "netcdf", "surface": "stl", "xyz": "xyz",
         "table": "csv"}
 OF_OURS = {"grain-table"}  # read as a table of a run of ours
-
-
-def check(holds, words):
-    if not holds:
-        sys.exit(words)
-
-
-def run(command, folder, script=False):
-    done = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", command] if script else [str(c) for c in command],
-                          cwd=folder, capture_output=True, text=True, env=environment(folder), check=False)
-    return done
-
-
-def environment(folder):
-    of_sanitizers = {name: value for name, value in os.environ.items() if name.endswith("SAN_OPTIONS")}
-    return {**of_sanitizers, "PATH": f"{folder}/bin:/usr/bin:/bin", "HOME": str(folder), "XDG_CACHE_HOME": str(folder / "cache"),
-            "LC_ALL": "C.UTF-8"}
 
 
 # ---- the table of formats
@@ -100,53 +81,9 @@ def check_table(program, folder):
 # ---- the commands
 
 
-def blocks():
-    """Of each ```sh block its first line's number, what it needs, and its commands."""
-    needs, lines, found = None, [], []
-    for number, line in enumerate(PAGE.read_text().splitlines(), 1):
-        if needs is None and line.startswith("```"):
-            words = line[3:].split()
-            needs, lines, first = words, [], number + 1
-        elif needs is not None and line == "```":
-            check(needs[:1] == ["sh"] or not any(x.startswith("./movie") for x in lines),
-                  f"{PAGE}:{first}: commands stand in a block that begins with ```sh")
-            if needs[:1] == ["sh"]:
-                found.append((first, needs[1:], commands(lines)))
-            needs = None
-        elif needs is not None:
-            lines.append(line)
-    return found
-
-
-def commands(lines):
-    """Lines, those that go on joined."""
-    all_, now = [], ""
-    for line in lines:
-        now += ("\n" if now else "") + line
-        if line.endswith("\\"):
-            continue
-        try:
-            shlex.split(now, comments=True)
-        except ValueError:
-            continue  # a quote is open
-        all_.append(now)
-        now = ""
-    check(not now, f"{PAGE}: ends within a quote: {now}")
-    return all_
-
-
-def missing(need):
-    if need in WINDOWS:
-        return f"{need} opens a window" if shutil.which(need) else f"{need} is not installed"
-    if need.startswith("python3:"):
-        there = subprocess.run([PYTHON, "-c", f"import {need[8:]}"], capture_output=True, check=False).returncode == 0
-        return None if there else f"Python has no {need[8:]}"
-    return None if shutil.which(need, path="/usr/bin:/bin") else f"{need} is not installed"
-
-
 def check_commands(folder):
     count = 0
-    for first, needs, lines in blocks():
+    for first, needs, lines in blocks(PAGE):
         why = next(filter(None, map(missing, needs)), None)
         for line in lines:
             if why:
@@ -254,7 +191,7 @@ def main():
         print(table(program), end="")
         return
     if option == "--list":
-        for first, needs, lines in blocks():
+        for first, needs, lines in blocks(PAGE):
             for line in lines:
                 print(f"{first} {' '.join(needs)}: {line}")
         return

@@ -11,6 +11,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/foreign/file_groups.hpp"
+#include "engine/files/run_json.hpp"
 
 namespace grainreel {
 
@@ -69,6 +70,16 @@ std::vector<fs::path> without_passed_over(std::vector<fs::path> files) {
     return files;
 }
 
+// ": out/weak, out/strong", the runs of which the film in this folder was drawn, as its run.json names them.
+std::string drawn_in(const fs::path& folder) {
+    const RunJson record = read_run_json(folder / "run.json").record;
+    std::vector<std::string> runs;
+    for (const std::string& panel : record.panels) runs.push_back((folder / panel).string());
+    if (runs.empty())
+        for (const DrawnFrom& one : record.drawn) runs.push_back(one.folder);
+    return runs.empty() ? "" : fmt::format(": {}", fmt::join(runs, ", "));
+}
+
 std::vector<fs::path> files_named(const std::string& name) {
     const fs::path path = name;
     std::error_code ignored;
@@ -76,8 +87,8 @@ std::vector<fs::path> files_named(const std::string& name) {
     if (!fs::is_directory(path, ignored)) return {path};
     if (fs::exists(path / "film_times.csv", ignored) && fs::exists(path / "run.json", ignored))
         throw UserError(fmt::format(
-            "{}: is the folder of a film alone; give the files, or the run, that it was drawn from",
-            path.string()));
+            "{}: is the folder of a film alone; give the files, or the run, that it was drawn from{}",
+            path.string(), drawn_in(path)));
     return without_passed_over(files_in(path));
 }
 

@@ -101,6 +101,9 @@ ArrivalFacts arrival_facts(const Scene& scene, const ForeignArchive& archive, co
 struct Import::Files {
     Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,
           std::vector<std::string>& news);
+    double largest_grain() const;  // m, diameter
+    void doubt_grains(const ImportRequest& request, const ForeignArchive& archive,
+                      std::vector<std::string>& news) const;
     void doubt_walls(const ImportRequest& request, const ForeignArchive& archive,
                      std::vector<std::string>& news) const;
 
@@ -116,13 +119,31 @@ struct Import::Files {
     const std::size_t bodies, places;
 };
 
+double Import::Files::largest_grain() const {
+    double largest = 0;
+    for (const Species& one : scene.species) largest = std::max(largest, one.diameter.largest);
+    return largest;
+}
+
+// Tells of grains that are as large as boulders, where lengths count as m and the user has not said so: the
+// files may be in mm.
+void Import::Files::doubt_grains(const ImportRequest& request, const ForeignArchive& archive,
+                                 std::vector<std::string>& news) const {
+    constexpr double too_large = 0.3;  // m
+    const UnitSystem& units = archive.units();
+    const bool in_metres = units.real && units.length == 1;
+    if (!in_metres || !request.reading.units.empty() || largest_grain() < too_large) return;
+    news.push_back(
+        fmt::format("{}: its grains are up to {:.4g} m large; where it is in mm, g and s, give --units mm",
+                    request.from.string(), largest_grain()));
+}
+
 // Tells of walls that are so large beside the grains that their file may be in another unit, as meshes of
 // ours are told of.
 void Import::Files::doubt_walls(const ImportRequest& request, const ForeignArchive& archive,
                                 std::vector<std::string>& news) const {
     constexpr double too_large = 3000;  // diameters of the largest grain
-    double largest = 0;
-    for (const Species& one : scene.species) largest = std::max(largest, one.diameter.largest);
+    const double largest = largest_grain();
     const std::size_t first = scene.meshes.size() - archive.walls().size();
     for (std::size_t m = first; m < scene.meshes.size() && !archive.walls()[m - first].is_box; ++m) {
         const MeshFacts& facts = scene.meshes[m].surface->facts();
@@ -148,6 +169,7 @@ Import::Files::Files(const ImportRequest& request, const ForeignArchive& archive
       supply(archive.supply()),
       bodies(archive.world().bodies.size()),
       places(survey.places) {
+    doubt_grains(request, archive, news);
     doubt_walls(request, archive, news);
     if (!ImportWear::known(archive)) return;
     wear.emplace(request.folder / "fields.nc", scene, archive, request.program_version);

@@ -197,6 +197,15 @@ std::optional<std::string> meant_by(const std::string& table, const std::string&
     return std::nullopt;
 }
 
+// The table inside another one that has this name: "container.outlet" for "outlet".
+std::optional<std::string> table_named(const std::string& name, const std::vector<Key>& keys) {
+    for (const Key& key : keys)
+        for (std::string table = parent_of(key.path); table.find('.') != std::string::npos;
+             table = parent_of(table))
+            if (name_of(table) == name) return table;
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::string advice_for_unknown_key(std::string_view path, const std::vector<Key>& keys) {
@@ -204,6 +213,7 @@ std::string advice_for_unknown_key(std::string_view path, const std::vector<Key>
     const std::vector<std::string> here = names_inside(parent_of(without_indices(path)), keys);
     if (const auto meant = meant_by(parent_of(without_indices(path)), name))
         return fmt::format("did you mean '{}'?", *meant);
+    if (const auto table = table_named(name, keys)) return fmt::format("did you mean '{}'?", *table);
     if (const std::optional<std::string> nearest = nearest_name(name, here))
         return fmt::format("did you mean '{}'?", *nearest);
     for (const Key& key : keys)

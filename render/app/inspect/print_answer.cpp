@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/text/units.hpp"
+#include "render/scene/axis_titles.hpp"
 #include "render/scene/shown_values.hpp"
 
 namespace grainreel {
@@ -95,15 +96,13 @@ class Units {
     std::map<Dimension, std::string> unit_;
 };
 
+constexpr const char* no_value = "-";
+
 std::string for_people(const AnswerCell& cell, double unit) {
     if (const auto* words = std::get_if<std::string>(&cell)) return *words;
     if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
     const double* value = std::get_if<double>(&cell);
-    return value && std::isfinite(*value) ? fmt::format("{:.4g}", *value / unit) : "-";
-}
-
-std::string named(const std::string& name, const std::string& unit) {
-    return unit.empty() ? name : name + " (" + unit + ")";
+    return value && std::isfinite(*value) ? fmt::format("{:.4g}", *value / unit) : no_value;
 }
 
 bool is_words(const AnswerTable& table, std::size_t column) {
@@ -120,13 +119,13 @@ struct Block {
 Block block_of(const AnswerTable& table, std::size_t column, const Units& units) {
     Block block;
     block.left = is_words(table, column);
-    block.lines.push_back(named(table.columns[column].name, units.of(table.columns[column])));
+    block.lines.push_back(with_unit(table.columns[column].name, units.of(table.columns[column])));
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
         const Dimension dimension = dimension_of(table, row, column);
         std::string cell = for_people(table.rows[row][column], unit_size(units.of(dimension), dimension));
         // The first column says what the row is, so it gets the row's unit.
         if (column == 0 && row < table.row_dimensions.size())
-            cell = named(cell, units.of(table.row_dimensions[row]));
+            cell = with_unit(cell, units.of(table.row_dimensions[row]));
         block.lines.push_back(std::move(cell));
     }
     for (const std::string& line : block.lines) block.width = std::max(block.width, characters(line));
@@ -161,8 +160,10 @@ std::string tall_table(const AnswerTable& table, const Units& units) {
         const AnswerColumn& column = table.columns[k];
         const std::string unit = units.of(column);
         const double size = unit_size(units.of(column.dimension), column.dimension);
-        text += fmt::format("  {:<{}}  {}{}{}{}\n", column.name, width, for_people(table.rows[0][k], size),
-                            unit.empty() ? "" : " " + unit, column.about.empty() ? "" : "   ", column.about);
+        const std::string value = for_people(table.rows[0][k], size);
+        const std::string shown = value == no_value ? "none" : value + (unit.empty() ? "" : " " + unit);
+        text += fmt::format("  {:<{}}  {}{}{}\n", column.name, width, shown,
+                            column.about.empty() ? "" : "   ", column.about);
     }
     return text;
 }
@@ -248,8 +249,7 @@ std::string csv_of(const Answer& answer) {
         std::string head;
         for (const AnswerColumn& column : table.columns) {
             const std::string unit = si_unit(column);
-            head +=
-                (head.empty() ? "" : ",") + csv_words(column.name + (unit.empty() ? "" : " (" + unit + ")"));
+            head += (head.empty() ? "" : ",") + csv_words(with_unit(column.name, unit));
         }
         text += head + (table.row_dimensions.empty() ? "" : ",unit") + "\n";
         auto dimension = table.row_dimensions.begin();

@@ -181,12 +181,22 @@ std::string to_string(Progress::Stage stage) {
     return "vibrating";
 }
 
+namespace {
+
+// What people read of a stage. Not every bed vibrates, and radii that grow fill the container.
+std::string words_of(Progress::Stage stage) {
+    if (stage == Progress::Stage::vibrating) return "running";
+    return stage == Progress::Stage::growing ? "filling" : to_string(stage);
+}
+
+}  // namespace
+
 std::string progress_line(const Progress& p, int width) {
     std::vector<std::string> parts;
     if (p.stage == Progress::Stage::vibrating) {
-        parts.push_back(fmt::format("{:<9} {:.2f} of {:.2f} s", to_string(p.stage), p.time, p.end));
+        parts.push_back(fmt::format("{:<9} {:.2f} of {:.2f} s", words_of(p.stage), p.time, p.end));
     } else {
-        parts.push_back(fmt::format("{:<9} {:3.0f} %", to_string(p.stage), 100 * p.done));
+        parts.push_back(fmt::format("{:<9} {:3.0f} %", words_of(p.stage), 100 * p.done));
     }
     if (!p.what.empty()) parts.push_back(p.what);
     if (p.particle_steps_per_second > 0) {

@@ -21,6 +21,7 @@
 #include "render/page/facts/run_names.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/picture/plots/axes.hpp"
+#include "render/scene/axis_titles.hpp"
 
 namespace grainreel {
 
@@ -53,7 +54,8 @@ struct MeasuredRun {
     }
 };
 
-std::deque<MeasuredRun> measured_runs(const std::vector<fs::path>& folders) {
+std::deque<MeasuredRun> measured_runs(const std::vector<fs::path>& folders,
+                                      const std::vector<std::string>& given) {
     std::deque<MeasuredRun> runs;
     std::vector<RunToName> to_name;
     for (const fs::path& folder : folders) {
@@ -67,7 +69,8 @@ std::deque<MeasuredRun> measured_runs(const std::vector<fs::path>& folders) {
                 fmt::format("{}: is missing or empty, so there is nothing to chart", file.string()));
         if (!run.column("time_s"))
             throw UserError(fmt::format("{}:1: lacks the column time_s", file.string()));
-        to_name.push_back({run.folder, run.scene});
+        const std::size_t k = to_name.size();
+        to_name.push_back({run.folder, run.scene, k < given.size() ? given[k] : ""});
     }
     const std::vector<std::string> names = names_of_runs(to_name);
     for (std::size_t k = 0; k < runs.size(); ++k) runs[k].name = names[k];
@@ -122,10 +125,6 @@ struct MeasureAxis {
     double size = 1;                   // SI units in one unit of the axis
     std::array<double, 2> span{0, 1};  // range of all values, SI
 };
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-    return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
-}
 
 // The span of all values. It begins at 0 or below for a measure whose axis starts at zero.
 std::array<double, 2> span_of(const std::deque<MeasuredRun>& runs, const std::string& measure) {
@@ -230,9 +229,10 @@ class RunCharts {
 }  // namespace
 
 std::vector<fs::path> draw_run_charts(const std::vector<fs::path>& folders,
+                                      const std::vector<std::string>& given,
                                       const std::vector<std::string>& measures, const Paper& paper,
                                       const fs::path& folder) {
-    const std::deque<MeasuredRun> runs = measured_runs(folders);
+    const std::deque<MeasuredRun> runs = measured_runs(folders, given);
     const std::vector<std::string> names = chosen(runs, measures);
     std::error_code failure;
     if (!fs::create_directories(folder, failure) && failure)

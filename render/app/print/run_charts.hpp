@@ -10,11 +10,12 @@
 
 namespace grainreel {
 
-// Draws a chart for each measure, with a line for each run, into `folder`, which is made. measures: columns
-// of measures.csv; none: those that the runs' page shows at first; "all": all that have values. Beside each
-// chart lie its table, in SI units, and its commands. Returns the charts' files. Throws UserError for runs
-// without measures and for columns that they lack.
+// Draws a chart for each measure, with a line for each run, into `folder`, which is made. names: those that
+// the user gave the runs, or none. measures: columns of measures.csv; none: those that the runs' page shows
+// at first; "all": all that have values. Beside each chart lie its table, in SI units, and its commands.
+// Returns the charts' files. Throws UserError for runs without measures and for columns that they lack.
 std::vector<std::filesystem::path> draw_run_charts(const std::vector<std::filesystem::path>& runs,
+                                                   const std::vector<std::string>& names,
                                                    const std::vector<std::string>& measures,
                                                    const Paper& paper, const std::filesystem::path& folder);
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/typed_time.hpp"
+#include "render/scene/axis_titles.hpp"
 
 namespace grainreel {
 namespace {
@@ -69,7 +70,7 @@ std::string axis_title(const std::string& label, const std::string& unit) {
         const bool whole = is_apart(end) || (label[end] == 's' && is_apart(end + 1));  // "degrees"
         if (whole && (at == 0 || is_apart(at - 1))) return label;
     }
-    return label + " (" + unit + ")";
+    return with_unit(label, unit);
 }
 
 Assignments Variation::assignments(std::size_t number) const {

@@ -63,7 +63,7 @@ std::optional<PlannedScene> planned_scene(const FilmedScene& scene) {
 }
 
 std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const fs::path& out, Damage damage,
-                                       const PageProgress& progress, const PageFilms& films) {
+                                       const PageProgress& progress, const BesideRuns& beside) {
     std::vector<PageRun> all;
     for (const fs::path& run : runs) {
         PageRun& one = all.emplace_back();
@@ -77,27 +77,33 @@ std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const 
             one.scene = scene_of_run(one.folder, {});
         }
         one.planned = planned_scene(one.scene);
-        if (all.size() <= films.of_runs.size()) one.film_folder = films.of_runs[all.size() - 1];
+        if (all.size() <= beside.films.size()) one.film_folder = beside.films[all.size() - 1];
+        if (all.size() <= beside.names.size()) one.name = beside.names[all.size() - 1];
     }
-    return write_report(all, out.empty() ? all.front().folder / kPageName : out, progress, films.of_all);
+    return write_report(all, out.empty() ? all.front().folder / kPageName : out, progress, beside.of_all);
 }
 
-std::vector<fs::path> runs_of_comparison(const fs::path& folder) {
+ComparedRuns runs_of_comparison(const fs::path& folder) {
     std::error_code ignored;
-    std::vector<fs::path> runs;
+    ComparedRuns runs;
     if (!fs::is_regular_file(folder / "run.json", ignored) || is_there(folder / "scene.toml")) return runs;
-    for (const std::string& panel : read_run_json(folder / "run.json").record.panels)
-        runs.push_back(folder / panel);  // a path from the root stays as it is
+    const RunJson record = read_run_json(folder / "run.json").record;
+    for (const std::string& panel : record.panels)
+        runs.folders.push_back(folder / panel);  // a path from the root stays as it is
+    runs.captions = record.captions;
+    runs.title = record.title;
     return runs;
 }
 
 PageMaker page_of_comparison() {
-    return [](const fs::path& folder,
-              const std::function<bool(double)>& go_on) -> std::optional<std::string> {
-        if (!make_page_of(runs_of_comparison(folder), folder / kPageName, Damage::none, go_on, {folder, {}}))
-            return std::nullopt;
-        return kPageName;
-    };
+    return
+        [](const fs::path& folder, const std::function<bool(double)>& go_on) -> std::optional<std::string> {
+            const ComparedRuns runs = runs_of_comparison(folder);
+            if (!make_page_of(runs.folders, folder / kPageName, Damage::none, go_on,
+                              {{folder, runs.title}, {}, runs.captions}))
+                return std::nullopt;
+            return kPageName;
+        };
 }
 
 PageMaker page_of_ended_run() {
@@ -185,7 +191,7 @@ class Report final : public Verb {
         if (reporter.stop_signal() != 0) return signal_base + reporter.stop_signal();
         const ShareWatcher watcher(reporter, Progress::Stage::paging);
         const ReportMade made = *make_page_of(
-            runs_, out_, Damage::looked_for, [&](double done) { return watcher("", done), true; }, films_);
+            runs_, out_, Damage::looked_for, [&](double done) { return watcher("", done), true; }, beside_);
         for (const std::string& line : made.news) reporter.warning(line);
         reporter.info(fmt::format("wrote {} ({}); open it in a browser", made.file.string(),
                                   data_size_text(static_cast<double>(made.bytes))));
@@ -200,14 +206,15 @@ class Report final : public Verb {
     void take_comparison() {
         if (runs_.size() != 1) return;
         const fs::path folder = runs_.front();
-        std::vector<fs::path> shown = runs_of_comparison(folder);
-        if (shown.empty()) return;
-        for (const fs::path& run : shown)
+        ComparedRuns shown = runs_of_comparison(folder);
+        if (shown.folders.empty()) return;
+        for (const fs::path& run : shown.folders)
             if (!is_there(run / "scene.toml"))
                 throw UserError(fmt::format("{}: shows the run {}, which is no longer there", folder.string(),
                                             run.string()));
-        runs_ = std::move(shown);
-        films_.of_all = folder;
+        runs_ = std::move(shown.folders);
+        beside_.of_all = {folder, shown.title};
+        beside_.names = std::move(shown.captions);
         if (out_.empty() && !paper_.folder) out_ = folder / kPageName;
     }
 
@@ -215,7 +222,7 @@ class Report final : public Verb {
     // returned.
     std::unique_ptr<ScratchFolder> draw_films(const std::vector<bool>& imported, Reporter& reporter) {
         std::unique_ptr<ScratchFolder> scratch;
-        films_.of_runs.resize(runs_.size());
+        beside_.films.resize(runs_.size());
         for (std::size_t k = 0; k < runs_.size() && !no_film_ && reporter.stop_signal() == 0; ++k) {
             if (!imported[k]) continue;
             if (!scratch) scratch = std::make_unique<ScratchFolder>("film-of-page");
@@ -229,13 +236,14 @@ class Report final : public Verb {
             OnlyProgress listener(reporter);
             StoredShots source(what.run, {}, what.replay);
             if (RedrawJob(request, what, listener, source).run().exit_status == 0)
-                films_.of_runs[k] = *request.out;
+                beside_.films[k] = *request.out;
         }
         return scratch;
     }
 
     int draw_charts(Reporter& reporter) const {
-        const std::vector<fs::path> files = draw_run_charts(runs_, measures_, paper_.paper, *paper_.folder);
+        const std::vector<fs::path> files =
+            draw_run_charts(runs_, beside_.names, measures_, paper_.paper, *paper_.folder);
         reporter.info(fmt::format("wrote {} of charts, {:g} mm wide", counted(files.size(), "file"),
                                   paper_.paper.width_mm));
         print_exact(paper_.folder->string() + "\n");
@@ -276,7 +284,7 @@ class Report final : public Verb {
     ReadingOptions reading_;
     fs::path out_;
     PaperOptions paper_;
-    PageFilms films_;
+    BesideRuns beside_;
     bool no_film_ = false;
     std::vector<std::string> measures_;
 };

@@ -16,10 +16,11 @@ namespace grainreel {
 // Whether frames are checked for damage. Those that this program has just written need no check.
 enum class Damage { looked_for, none };
 
-// Films of a page that do not lie in the folders of its runs.
-struct PageFilms {
-    std::filesystem::path of_all;                // folder of a film that shows all runs side by side
-    std::vector<std::filesystem::path> of_runs;  // for each run; empty: in its own folder
+// What a page shows that does not lie in the folders of its runs.
+struct BesideRuns {
+    PageOfAll of_all;
+    std::vector<std::filesystem::path> films;  // folder of each run's film; empty: the run's own
+    std::vector<std::string> names;            // that the user gave the runs
 };
 
 // Makes the page of the runs in these folders, side by side where there are several. out: the page's file;
@@ -27,13 +28,18 @@ struct PageFilms {
 // a folder that is no run, and RunError when the page cannot be made.
 std::optional<ReportMade> make_page_of(const std::vector<std::filesystem::path>& runs,
                                        const std::filesystem::path& out, Damage damage,
-                                       const PageProgress& progress, const PageFilms& films = {});
+                                       const PageProgress& progress, const BesideRuns& beside = {});
 
 // The plan of a scene; none when this version of the program would not run the scene.
 std::optional<PlannedScene> planned_scene(const FilmedScene& scene);
 
-// The folders of the runs that a folder of `compare` shows; empty for other folders.
-std::vector<std::filesystem::path> runs_of_comparison(const std::filesystem::path& folder);
+// What a folder of `compare` shows; no runs for other folders.
+struct ComparedRuns {
+    std::vector<std::filesystem::path> folders;
+    std::vector<std::string> captions;  // given by --captions
+    std::string title;                  // of its film
+};
+ComparedRuns runs_of_comparison(const std::filesystem::path& folder);
 // Makes report.html in the folder of a comparison.
 PageMaker page_of_comparison();
 

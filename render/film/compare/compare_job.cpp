@@ -34,6 +34,8 @@ void CompareJob::begin() {
             desk_.record.drawn.push_back({member->place(), static_cast<std::int64_t>(instants.size()),
                                           instants.front().time, instants.back().time});
     }
+    desk_.record.captions = all_.captions;
+    desk_.record.title = all_.film.film.title;
     begin_record(all_.warnings);
     for (const auto& member : all_.members) member->begin(folder(), request_);
 }

@@ -38,37 +38,10 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-// Whether a caption holds for any value of a key: it asks, or it tells the run's own numbers.
-bool holds_for_all(const FilmCaption& caption) {
-    return trimmed(caption.text, " \n").ends_with('?') || has_values(caption.words);
-}
-
-// If a key of a scene is varied, drops the scene's captions that state something: they were written for the
-// value in the scene file. Captions of the command line hold for all panels and stay.
-void leave_out_captions(const CompareRequest& what, Comparison& all) {
-    if (!what.vary) return;
-    const std::vector<Assignment> values = read_vary(*what.vary);
-    const bool given = std::any_of(what.sets.begin(), what.sets.end(), [](const Assignment& set) {
-        return set.key().rfind("film.caption", 0) == 0;
-    });
-    if (given || !changes_the_scene(values.front())) return;
-    const auto leave_out = [](FilmedScene& scene) {
-        return std::erase_if(scene.film.captions,
-                             [](const FilmCaption& caption) { return !holds_for_all(caption); });
-    };
-    if (leave_out(all.film) == 0) return;
-    for (Panel& panel : all.panels) leave_out(panel.scene);
-    all.warnings.push_back(
-        fmt::format("film.caption: captions that state something were written for one value of {} and are "
-                    "left out, those that ask or tell the run's numbers stay; --set film.caption=[...] gives "
-                    "the comparison its own",
-                    values.front().key()));
-}
-
 void make_panels(const CompareRequest& what, Comparison& all) {
     const std::vector<FilmedScene> scenes = scenes_of(all);
     std::vector<std::string> captions = all.labels.empty() ? captions_of(scenes) : all.labels;
-    if (what.captions) captions = split(*what.captions);
+    if (what.captions) captions = all.captions = split(*what.captions);
     for (const std::string& caption : captions)
         if (letters_in(caption) > kMostLetters)
             throw UserError(fmt::format("--captions: one has {} characters, and the most are {}; shorten it",
@@ -88,7 +61,6 @@ void make_panels(const CompareRequest& what, Comparison& all) {
         // All plots and clocks cover the time that is shown.
         if (all.film_end > 0) all.panels[i].scene.run.duration = all.film_end;
     }
-    leave_out_captions(what, all);
     share_colours(all.panels);
     share_reach(all.panels);
     if (!common_of(all.panels).exaggerated)  // if the factors differ, each panel has its own words

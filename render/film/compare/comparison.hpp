@@ -24,6 +24,7 @@ struct Comparison {
     bool by_schedule = true;    // the film's segments chose the moments; else a finished run did
     // One for each panel, with the value that is varied; empty where nothing is varied.
     std::vector<std::string> labels;
+    std::vector<std::string> captions;  // one for each panel, where the user gave them
     // If one picture is drawn instead of a film: its time in s of film.
     std::optional<double> still;
     bool pdf = false;                // that picture is a PDF

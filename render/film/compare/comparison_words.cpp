@@ -207,7 +207,7 @@ std::string path_of(const Assignment& value, const FilmedScene& scene) {
     return longest;
 }
 
-std::string with_unit(const std::string& text, const std::string& path) {
+std::string value_of_key(const std::string& text, const std::string& path) {
     const Key* key = path.empty() ? nullptr : find_key(path, filmed_scene_keys());
     const bool measured =
         key != nullptr && key->dimension != Dimension::number &&
@@ -215,13 +215,16 @@ std::string with_unit(const std::string& text, const std::string& path) {
     return measured && is_number(text) ? fmt::format("{} {}", text, text_of(key->dimension).unit) : text;
 }
 
-// What a label calls a key: "g level" for "drive.g_level", "density of big" for "species.big.density".
-std::string words_of_key(const std::string& key) {
+// What a label calls a key: "g level" for "drive.g_level", "density of big" for "species.big.density". In
+// other languages than English the species stands in brackets.
+std::string words_of_key(const std::string& key, Language language) {
     std::string name = name_of(key);
     std::replace(name.begin(), name.end(), '_', ' ');
+    name = phrase(language, name);
     const std::string table = parent_of(key);
-    return table.rfind("species.", 0) == 0 ? name + " of " + table.substr(std::string("species.").size())
-                                           : name;
+    if (table.rfind("species.", 0) != 0) return name;
+    const std::string species = table.substr(std::string("species.").size());
+    return language == Language::en ? name + " of " + species : fmt::format("{} ({})", name, species);
 }
 
 // The value with its symbol, as frames show it; empty for a key without a symbol.
@@ -264,8 +267,8 @@ std::vector<std::string> labels_of(const std::vector<Assignment>& values,
     std::vector<std::string> symbols, words;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::string path = path_of(values[i], scenes[i]);
-        words.push_back(
-            fmt::format("{} = {}", words_of_key(values[i].key()), with_unit(bare(values[i].value()), path)));
+        words.push_back(fmt::format("{} = {}", words_of_key(values[i].key(), scenes[i].film.wording.language),
+                                    value_of_key(bare(values[i].value()), path)));
         symbols.push_back(with_symbol(path, scenes[i]));
     }
     const std::set<std::string> different(symbols.begin(), symbols.end());

@@ -11,9 +11,11 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/program.hpp"
 #include "engine/base/team.hpp"
+#include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/run/driver/also_exports.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/scene/text/toml_text.hpp"
 #include "render/film/compare/comparison.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -179,8 +181,34 @@ void number_names(std::vector<FilmedScene>& scenes) {
     }
 }
 
+// Whether a caption holds for any value of a key: it asks, or it tells the run's own numbers.
+bool holds_for_all(const FilmCaption& caption) {
+    return trimmed(caption.text, " \n").ends_with('?') || has_values(caption.words);
+}
+
+// If a key of a scene is varied, the captions without those that state something, which were written for the
+// value in the scene file. None where all hold, or where the command line gives captions.
+std::optional<Assignment> captions_for_all(const CompareRequest& what, const Input& input,
+                                           const FilmedScene& scene) {
+    const bool given = std::any_of(what.sets.begin(), what.sets.end(), [](const Assignment& set) {
+        return set.key().rfind("film.caption", 0) == 0;
+    });
+    if (given || !input.value || !changes_the_scene(*input.value)) return std::nullopt;
+    std::vector<std::string> kept;
+    for (const FilmCaption& one : scene.film.captions) {
+        if (!holds_for_all(one)) continue;
+        const std::string to =
+            one.to < scene.run.duration ? fmt::format(", to = {}", toml_number(one.to)) : "";
+        const std::string hold = one.hold > 0 ? fmt::format(", hold = {}", toml_number(one.hold)) : "";
+        kept.push_back(
+            fmt::format("{{from = {}{}{}, text = {}}}", toml_number(one.from), to, hold, quoted(one.text)));
+    }
+    if (kept.size() == scene.film.captions.size()) return std::nullopt;
+    return Assignment("film.caption=" + toml_list(kept));
+}
+
 std::vector<FilmedScene> read_scenes(const CompareRequest& what, const std::vector<Input>& inputs,
-                                     const Assignments& more) {
+                                     const Assignments& more, std::vector<std::string>& warnings) {
     std::vector<FilmedScene> scenes;
     for (const Input& input : inputs) {
         if (input.is_run()) continue;
@@ -188,6 +216,17 @@ std::vector<FilmedScene> read_scenes(const CompareRequest& what, const std::vect
         Assignments sets = input.sets(what);
         sets.insert(sets.end(), more.begin(), more.end());
         scenes.push_back(read_filmed_scene(input.path, sets, measurable_in));
+        if (const auto captions = captions_for_all(what, input, scenes.back())) {
+            sets.push_back(*captions);
+            scenes.back() = read_filmed_scene(input.path, sets, measurable_in);
+            std::string line = fmt::format(
+                "film.caption: captions that state something were written for one value of {} and are left "
+                "out, those that ask or tell the run's numbers stay; --set film.caption=[...] gives the "
+                "comparison its own",
+                input.value->key());
+            if (std::find(warnings.begin(), warnings.end(), line) == warnings.end())
+                warnings.push_back(std::move(line));
+        }
         if (input.value) scenes.back().name = name_with(scenes.back().name, *input.value);
     }
     number_names(scenes);
@@ -198,7 +237,7 @@ std::vector<FilmedScene> read_scenes(const CompareRequest& what, const std::vect
 std::vector<FilmedScene> read_scenes_of_one_length(const CompareRequest& what,
                                                    const std::vector<Input>& inputs,
                                                    std::vector<std::string>& warnings) {
-    std::vector<FilmedScene> scenes = read_scenes(what, inputs, {});
+    std::vector<FilmedScene> scenes = read_scenes(what, inputs, {}, warnings);
     if (scenes.empty()) return scenes;
     const auto by_duration = [](const FilmedScene& a, const FilmedScene& b) {
         return a.run.duration < b.run.duration;
@@ -208,7 +247,7 @@ std::vector<FilmedScene> read_scenes_of_one_length(const CompareRequest& what,
     warnings.push_back(fmt::format("{} lasts {:.6g} s, {} {:.6g} s: all are run and shown for {:.6g} s",
                                    shortest->file, shortest->run.duration, longest->file,
                                    longest->run.duration, shortest->run.duration));
-    return read_scenes(what, inputs, {fmt::format("run.duration={}", shortest->run.duration)});
+    return read_scenes(what, inputs, {fmt::format("run.duration={}", shortest->run.duration)}, warnings);
 }
 
 void check_start(const FilmedScene& scene) {

@@ -112,6 +112,7 @@ Names names_by_keys(const std::vector<RunToName>& runs) {
     }
     if (differing.empty() || differing.size() > most_said) return {};
     say_as_level(runs, differing);
+    for (auto& [key, values] : differing) key = phrase(runs.front().scene.film.wording.language, key);
     Names names(runs.size());
     for (const auto& [key, values] : differing)
         for (std::size_t k = 0; k < runs.size(); ++k)
@@ -122,13 +123,14 @@ Names names_by_keys(const std::vector<RunToName>& runs) {
 }  // namespace
 
 Names names_of_runs(const std::vector<RunToName>& runs) {
-    Names titles, folders, paths;
+    Names given, titles, folders, paths;
     for (const RunToName& run : runs) {
+        given.push_back(run.given);
         titles.push_back(run.scene.title);
         folders.push_back(run.folder.filename().string());
         paths.push_back(run.folder.string());
     }
-    for (const Names& names : {titles, names_by_keys(runs), folders})
+    for (const Names& names : {given, titles, names_by_keys(runs), folders})
         if (names.size() == runs.size() && all_differ(names)) return names;
     return paths;
 }

@@ -15,9 +15,11 @@ namespace grainreel {
 struct RunToName {
     std::filesystem::path folder;
     const FilmedScene& scene;
+    std::string given = {};  // name that the user gave
 };
 
-// Names for runs: the titles of the scenes when no two are the same. Otherwise what differs between the
+// Names for runs: those that the user gave when there is one for each and no two are the same. Otherwise the
+// titles of the scenes when no two are the same. Otherwise what differs between the
 // scenes, "frequency = 20 Hz", when this is short and different for all of them. Otherwise the names of the
 // folders, or their whole paths when two folders have the same name.
 std::vector<std::string> names_of_runs(const std::vector<RunToName>& runs);

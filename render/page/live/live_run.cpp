@@ -245,13 +245,12 @@ std::string live_page(const FilmedScene& scene, const std::filesystem::path& fol
     const std::string about = html_text(say("One picture of the run: {1}", {lead_text(scene, say)}));
     const std::string picture =
         fmt::format("<img id=\"live-picture\" class=\"poster\" alt=\"{}\" hidden>\n", about);
-    const std::string bed =
-        filled(say.in(files.bed),
-               {{"about",
-                 "The newest moment that the run has written. Places are rounded to 16 bits over the box "
-                 "that the grains reach."},
-                {"n", ""},
-                {"english", say.on_english()}});
+    const std::string bed = filled(
+        say.in(files.bed),
+        {{"about",
+          html_text(say("The newest moment that the run has written. Places are rounded to 16 bits over "
+                        "the box that the grains reach."))},
+         {"n", ""}});
     const std::string body =
         filled(say.in(files.body), {{"film", picture},
                                     {"bed", bed},

@@ -9,6 +9,7 @@
 
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/picture.hpp"
+#include "render/scene/axis_titles.hpp"
 #include "render/scene/shown_values.hpp"
 
 namespace grainreel {
@@ -71,10 +72,6 @@ std::string in_unit(double value, double size, const std::string& unit) {
     return fmt::format("{:.3g}{}{}", value / size, unit.empty() ? "" : " ", unit);
 }
 
-std::string with_unit(const std::string& words, const std::string& unit) {
-    return unit.empty() ? words : fmt::format("{} ({})", words, unit);
-}
-
 }  // namespace
 
 std::string clipped_words(const GrainColouring& colouring, const ClippedCount& count, const char* of) {
@@ -105,14 +102,14 @@ ColourScale::ColourScale(const GrainColouring& colouring, const Wording& wording
       signed_(is_signed(colouring.by) || colouring.by == GrainValue::own),
       logarithmic_(colouring.logarithmic),
       unit_size_(grainreel::unit_size(colouring.unit, dimension_of(colouring.by))),
-      title_(with_unit(quantity_words(colouring, wording), colouring.unit)) {}
+      title_(with_unit(quantity_words(colouring, wording), colouring.unit, dimension_of(colouring.by))) {}
 
 ColourScale::ColourScale(const FilmWalls& walls, const Wording& wording)
     : map_(ColourMap::bilbao), range_(walls.range), logarithmic_(walls.logarithmic()) {
     const WallUnit unit = unit_of(walls);
     unit_size_ = unit.size;
     const bool wear = walls.colour == FilmWalls::Colour::wear;
-    title_ = with_unit(wording(wear ? Word::wear : Word::pressure), unit.name);
+    title_ = with_unit(wording(wear ? Word::wear : Word::pressure), unit.name, dimension_of(walls.colour));
 }
 
 double ColourScale::share_of(double value) const {

@@ -13,6 +13,7 @@
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/plots/axes.hpp"
 #include "render/picture/plots/profile_plot.hpp"
+#include "render/scene/axis_titles.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/shown_values.hpp"
 
@@ -47,7 +48,9 @@ void Plot::Slice::add(double value) {
 PlotRange plot_frame(const FilmedScene& scene, const FilmPlot& plot) {
     PlotRange frame;
     frame.column = plot.column;
-    frame.label = plot.label;
+    const LabelParts label = label_parts(plot.label, plot.dimension);
+    frame.label = label.words;
+    frame.unit = label.unit;
     frame.dimension = plot.dimension;
     frame.time = {0, scene.run.duration};
     frame.range = plot.range;
@@ -69,7 +72,8 @@ Plot::Plot(const PlotRange& frame, const TypeScale& type, const Palette& palette
     for (const TimeTick& tick : time_ticks()) end = measure_text(tick.text, {type.minor, false}).width;
     left_ = std::ceil(measure_text("−0.00", {type.minor, false}).width + 0.6 * type.minor);
     right_ = std::floor(frame.width - std::max(0.5 * end, 0.4 * type.main));
-    const std::string longest = frame.dimension == Dimension::number ? frame.label : frame.label + " (mmm)";
+    const std::string usual_unit = frame.dimension == Dimension::number ? "" : "mmm";
+    const std::string longest = with_unit(frame.label, frame.unit.empty() ? usual_unit : frame.unit);
     top_ = std::ceil(
         measure_text(longest, {type.main, false}, frame.width, title_lines(frame.height, type)).height +
         0.6 * type.minor);
@@ -175,6 +179,7 @@ void Plot::widen(double value) {
 // numbers that would be too long for the axis, or all zeros, change it.
 const std::string& Plot::unit(double largest) {
     constexpr double longest = 1e4, shortest = 0.02;
+    if (!frame_.unit.empty()) return frame_.unit;
     const bool stays = unit_ && (largest == 0 || (largest < longest * unit_size(*unit_, frame_.dimension) &&
                                                   largest > shortest * unit_size(*unit_, frame_.dimension)));
     if (!stays) unit_ = fitting_unit(largest, frame_.dimension);
@@ -196,9 +201,7 @@ void Plot::draw_axes(cairo_t* on) {
     const double largest = std::max({std::abs(low), std::abs(high), frame_.expected});
     const std::string& shown_unit = unit(largest);
     const double size = unit_size(shown_unit, frame_.dimension);
-    const std::string title =
-        shown_unit.empty() ? frame_.label : fmt::format("{} ({})", frame_.label, shown_unit);
-    draw_title(on, title, frame_.width, frame_.height, type_, palette_.ink);
+    draw_title(on, with_unit(frame_.label, shown_unit), frame_.width, frame_.height, type_, palette_.ink);
 
     // If all values are 0, no unit fits them, and the only tick is at 0.
     const bool zeros = high - low < 10 * least_room && low <= 0 && high >= 0;
@@ -216,7 +219,7 @@ void Plot::draw_axes(cairo_t* on) {
         draw_text(on, x - 0.5 * words.width, bottom_ + tick, at.text, minor, palette_.faint_ink);
         below = words.height;
     }
-    const std::string name = fmt::format("{} ({})", frame_.time_name, short_run() ? "ms" : "s");
+    const std::string name = with_unit(frame_.time_name, short_run() ? "ms" : "s", Dimension::time);
     draw_text(on, right_ - measure_text(name, minor).width, bottom_ + tick + below, name, minor,
               palette_.faint_ink);
 }

@@ -43,6 +43,7 @@ std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlo
 // What is known of a plot against time before the film begins.
 struct PlotRange {
     std::string column, label;
+    std::string unit;  // that the label names; else one that suits the values is chosen
     Dimension dimension = Dimension::number;
     std::array<double, 2> time{0, 1};            // s, of the whole run
     std::optional<std::array<double, 2>> range;  // SI

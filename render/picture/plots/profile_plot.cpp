@@ -11,6 +11,7 @@
 #include "render/picture/camera/framing.hpp"
 #include "render/picture/grains/velocity_field.hpp"
 #include "render/picture/plots/axes.hpp"
+#include "render/scene/axis_titles.hpp"
 #include "render/scene/shown_values.hpp"
 
 namespace grainreel {
@@ -33,10 +34,6 @@ std::array<double, 2> places_of(const FilmedScene& scene, bool across) {
     return {0, top > 0 ? top : scene.container.height};
 }
 
-std::string with_unit(const std::string& name, const std::string& unit) {
-    return unit.empty() ? name : fmt::format("{} ({})", name, unit);
-}
-
 }  // namespace
 
 ProfilePlot::ProfilePlot(const FilmedScene& scene, const FilmPlot& plot, int width, int height,
@@ -53,7 +50,9 @@ ProfilePlot::ProfilePlot(const FilmedScene& scene, const FilmPlot& plot, int wid
     const double words = line_height(type.minor);
     left_ = std::ceil(measure_text("−0.00", {type.minor, false}).width + 0.6 * type.minor);
     right_ = std::floor(width - 1.2 * type.minor);
-    const std::string title = with_unit(plot.label, plot.dimension == Dimension::number ? "" : "mmm");
+    const LabelParts label = label_parts(plot.label, plot.dimension);
+    const std::string usual_unit = plot.dimension == Dimension::number ? "" : "mmm";
+    const std::string title = with_unit(label.words, label.unit.empty() ? usual_unit : label.unit);
     top_ = std::ceil(measure_text(title, {type.main, false}, width, title_lines(height, type)).height +
                      0.6 * type.minor + (plot.across ? 0 : words));
     bottom_ = std::floor(height - (plot.across ? 2 : 1) * words - 0.35 * type.minor);
@@ -76,13 +75,17 @@ bool ProfilePlot::take(const Shot& frame) {
 
 ProfilePlot::Axis ProfilePlot::place_axis() const {
     const std::string unit = fitting_unit(std::max(-places_[0], places_[1]), Dimension::length);
-    return {places_, with_unit(scene_.film.wording(plot_.across ? Word::across : Word::height), unit),
-            unit_size(unit, Dimension::length)};
+    return {
+        places_,
+        with_unit(scene_.film.wording(plot_.across ? Word::across : Word::height), unit, Dimension::length),
+        unit_size(unit, Dimension::length)};
 }
 
 ProfilePlot::Axis ProfilePlot::value_axis() const {
-    const std::string unit = fitting_unit(std::max(-range_[0], range_[1]), plot_.dimension);
-    return {range_, with_unit(plot_.label, unit), unit_size(unit, plot_.dimension)};
+    const LabelParts label = label_parts(plot_.label, plot_.dimension);
+    const std::string unit =
+        label.unit.empty() ? fitting_unit(std::max(-range_[0], range_[1]), plot_.dimension) : label.unit;
+    return {range_, with_unit(label.words, unit), unit_size(unit, plot_.dimension)};
 }
 
 std::array<double, 2> ProfilePlot::pixel_of(double value, double place) const {

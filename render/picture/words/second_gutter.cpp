@@ -6,6 +6,7 @@
 
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/scene/axis_titles.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -23,6 +24,12 @@ constexpr double caption_letters = 11;    // in a row, the caption's width in he
 Rectangle whole(double x, double y, double width, double height) {
     const auto first = [](double pixels) { return static_cast<int>(pixels); };
     return {first(x), first(y), first(x + width) - first(x), first(y + height) - first(y)};
+}
+
+// With the unit that the label says, or room for another.
+std::string title_of(const FilmPlot& plot) {
+    const LabelParts label = label_parts(plot.label, plot.dimension);
+    return with_unit(label.words, label.unit.empty() ? "mm" : label.unit);
 }
 
 // Whether arrows and dial are wanted; they are left out where there is no room.
@@ -78,7 +85,7 @@ class Planner {
     double least_plot(double wide) const {
         double title = 0;
         for (const FilmPlot& plot : scene_.film.shows.plots)
-            title = std::max(title, measure_text(plot.label + " (mm)", measure_.main(), wide, 2).height);
+            title = std::max(title, measure_text(title_of(plot), measure_.main(), wide, 2).height);
         return least_box * std::min(scene_.film.width, scene_.film.height) + title + 2 * line_ +
                0.95 * type_.minor;
     }

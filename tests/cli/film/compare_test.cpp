@@ -274,7 +274,8 @@ TEST_F(CompareProgram, AStillHasTheStartHeightsOfTheFilm) {
 // A caption that a scene has for its own drive is not shown over a panel with another drive.
 TEST_F(CompareProgram, CaptionsOfOneValueAreLeftOutBesideOthers) {
     write_text(here / "told.toml",
-               text_of(here / "weak.toml") + "[[film.caption]]\nfrom = \"0 s\"\ntext = \"Nothing flies\"\n");
+               text_of(here / "weak.toml") +
+                   "[[film.caption]]\nfrom = \"0 s\"\ntext = \"Nothing flies\"\nhold = 0.5\n");
     const auto drawn = [&](const std::string& scene, const std::string& out,
                            const std::vector<std::string>& more) {
         std::vector<std::string> words = {"compare", scene,  "--vary", "drive.g_level=1.2,3",
@@ -288,6 +289,13 @@ TEST_F(CompareProgram, CaptionsOfOneValueAreLeftOutBesideOthers) {
     const auto [said, told] = drawn("told.toml", "told", {});
     EXPECT_THAT(said, tells({"film.caption", "one value", "drive.g_level", "left out"}));
     EXPECT_TRUE(told == drawn("weak.toml", "weak", {}).second);
+    // The runs have no such caption either, so pictures that are drawn of them later do not.
+    const Ended ran = program({"compare", "told.toml", "--vary", "drive.g_level=1.2,3", "--out", "ran",
+                               "--no-report", "--set", "film.length=1 s"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_THAT(text_of(here / "ran/told-g_level-3/scene.toml"), Not(HasSubstr("Nothing flies")));
+    EXPECT_NEAR(static_cast<double>(decoded_pictures(here / "ran/movie.mp4")), 30, 2)
+        << "nothing is held for a caption that is not there";
     const auto [nothing, own] =
         drawn("told.toml", "own", {"--set", "film.caption=[{from=0,text=\"Two drives\"}]"});
     EXPECT_THAT(nothing, Not(HasSubstr("film.caption")));
@@ -321,6 +329,7 @@ TEST_F(CompareProgram, LeavesThePageOfItsRunsWithTheirFilm) {
     const std::string times = text_of(here / "both/film_times.csv");
     EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), 1 + frames_of_film);
 
+    EXPECT_THAT(program({"inspect", "both"}).err, tells({"a film alone", "both/weak, both/strong"}));
     fs::remove(here / "both/report.html");
     const Ended again = program({"report", "both"});
     ASSERT_EQ(again.status, 0) << again.err;
@@ -333,6 +342,33 @@ TEST_F(CompareProgram, LeavesThePageOfItsRunsWithTheirFilm) {
     EXPECT_THAT(gone.err, tells({"both/strong", "no longer there"}));
     EXPECT_EQ(program({"compare", "weak.toml", "strong.toml", "--out", "none", "--no-report"}).status, 0);
     EXPECT_FALSE(fs::exists(here / "none/report.html"));
+}
+
+// The captions that were given are the names of the runs, in the page, a later page and charts.
+TEST_F(CompareProgram, ItsPageCallsTheRunsAsTheirCaptionsDo) {
+    const Ended made = program(
+        {"compare", "weak.toml", "strong.toml", "--out", "both", "--captions", "by hand <1>|by motor"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const std::string page = text_of(here / "both/report.html");
+    EXPECT_THAT(page,
+                AllOf(HasSubstr("<h1>by hand &lt;1&gt;, by motor</h1>"), HasSubstr("<h2>by motor</h2>")));
+    fs::remove(here / "both/report.html");
+    ASSERT_EQ(program({"report", "both"}).status, 0);
+    EXPECT_TRUE(text_of(here / "both/report.html") == page);
+    const Ended charts = program({"report", "both", "--charts", "charts", "--measures", "kinetic_J"});
+    ASSERT_EQ(charts.status, 0) << charts.err;
+    EXPECT_THAT(text_of(here / "charts/kinetic_J.csv"), HasSubstr("by motor"));
+
+    // So is a title of the film.
+    ASSERT_EQ(program({"compare", "weak.toml", "strong.toml", "--out", "titled", "--title", "Who flies?",
+                       "--captions", "Ada|Bo"})
+                  .status,
+              0);
+    EXPECT_THAT(text_of(here / "titled/report.html"), HasSubstr("<h1>Who flies? Ada, Bo</h1>"));
+    // Two of one name do not tell the runs apart.
+    ASSERT_EQ(
+        program({"compare", "weak.toml", "strong.toml", "--out", "same", "--captions", "run|run"}).status, 0);
+    EXPECT_THAT(text_of(here / "same/report.html"), Not(HasSubstr("<h2>run</h2>")));
 }
 
 // A length that is asked for holds for the film of all.

@@ -111,6 +111,19 @@ TEST_F(Also, WithoutTheKeyNothingIsThere) {
     EXPECT_THAT(text_of(here / "run" / "scene.toml"), testing::Not(HasSubstr("also")));
 }
 
+// VTKHDF has one list of times for all, and records of fields have others than frames.
+TEST_F(Also, VtkHdfSaysThatFieldsAreLeftOut) {
+    const std::string scene = with("[output.fields]\ngrid = \"yz\"\nperiods = 1\nsamples = 2\n");
+    ASSERT_EQ(run(movie(scene, {"--set", "run.duration=0.12"})).status, 0);
+    ASSERT_TRUE(fs::exists(here / "run" / "fields.nc"));
+    const Ended left = run({"export", "run", "--to", "vtkhdf"});
+    EXPECT_EQ(left.status, 0) << left.err;
+    EXPECT_THAT(left.err, tells({"VTKHDF", "no place", "fields", "--to vtk"}));
+    const Ended with_them = run({"export", "run", "--to", "vtk"});
+    EXPECT_THAT(with_them.err, testing::Not(HasSubstr("fields;")));
+    EXPECT_TRUE(fs::exists(here / with_them.out.substr(0, with_them.out.find('\n')) / "fields.pvd"));
+}
+
 TEST_F(Also, AWrongNameIsRefusedWhereItStands) {
     const Ended wrong = run({"check", with("also = [\"vtk\", \"paraview\"]\n")});
     EXPECT_EQ(wrong.status, 2);

@@ -108,6 +108,19 @@ TEST_F(FiguresOfARun, AHopperEndsWithItsRateAndBeverloos) {
     EXPECT_NEAR(value(told, "beverloo"), expected_of_slot(0.012, 0.015, 0.003), 1e-9);
     EXPECT_GT(value(told, "would_empty"), 0.25);
     EXPECT_TRUE(std::isnan(value(told, "emptied")));
+    // People read why a number is lacking, and no unit behind nothing.
+    const Ended words = call({"inspect", "hopper", "--discharge"});
+    EXPECT_THAT(words.out, testing::ContainsRegex("emptied +none   less than 1 % left"));
+    EXPECT_THAT(words.out, HasSubstr("emptied: none, the run ended before"));
+    EXPECT_THAT(words.out, Not(testing::ContainsRegex(" - (g|kg|s)")));
+    // The page has the same rate.
+    ASSERT_EQ(call({"report", "hopper"}).status, 0);
+    const std::string page = text_of(folder / "hopper/report.html");
+    EXPECT_THAT(page, HasSubstr("<h2 id=\"outflow\">How fast the grains flow out</h2>"));
+    EXPECT_THAT(page,
+                HasSubstr(fmt::format("<td>{:.3g}</td>", 1000 * expected_of_slot(0.012, 0.015, 0.003))));
+    EXPECT_THAT(page, HasSubstr(fmt::format("<td>{:.2f}</td>",
+                                            value(told, "rate") / expected_of_slot(0.012, 0.015, 0.003))));
 }
 
 TEST_F(FiguresOfARun, ARunThatGoesOnEndsWithItsRateToo) {
@@ -138,8 +151,14 @@ TEST_F(FiguresOfARun, PeriodicSlotsAndFeedsHaveRatesToo) {
 TEST_F(FiguresOfARun, ComparedHoppersHaveARateEach) {
     write_text(folder / "hopper.toml", hopper);
     const Ended ended = call({"compare", "hopper.toml", "--vary", "contact.friction=0.1,0.3", "--out", "two",
-                              "--format", "png", "--no-report"});
+                              "--format", "png", "--set", "film.lang=de"});
     ASSERT_EQ(ended.status, 0) << ended.err;
+    const std::string page = text_of(folder / "two/report.html");
+    for (const char* words :
+         {"Wie schnell die Körner ausfließen", "gemessen, g/s", "Gesetz von Beverloo, g/s",
+          "<tr><th scope=\"row\">Reibung = 0.1</th><td>", "Orte sind auf 16 Bit gerundet"})
+        EXPECT_THAT(page, HasSubstr(words));
+    EXPECT_THAT(page, Not(HasSubstr("friction = ")));
     for (const std::string panel : {"hopper-friction-0.1", "hopper-friction-0.3"}) {
         EXPECT_THAT(ended.err, HasSubstr(panel + ": outflow: "));
         EXPECT_THAT(ended.err, HasSubstr(panel + ": Beverloo's law expects"));

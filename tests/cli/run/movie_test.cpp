@@ -186,13 +186,13 @@ TEST_F(MovieProgram, QuietSaysNothingOnStderr) {
 TEST_F(MovieProgram, ProgressNoneKeepsTheMessages) {
     const Ended ended = movie({"--no-film", "--progress", "none"});
     EXPECT_THAT(ended.err, HasSubstr("wrote output/fifty"));
-    EXPECT_THAT(ended.err, Not(HasSubstr("growing")));
+    EXPECT_THAT(ended.err, Not(HasSubstr("filling")));
 }
 
 TEST_F(MovieProgram, ProgressInAPipeIsPlainLines) {
     const Ended ended = movie({});
-    EXPECT_THAT(ended.err, HasSubstr("growing"));
-    EXPECT_THAT(ended.err, HasSubstr("vibrating 0.00 of 0.20 s"));
+    EXPECT_THAT(ended.err, HasSubstr("filling"));
+    EXPECT_THAT(ended.err, HasSubstr("running   0.00 of 0.20 s"));
     EXPECT_THAT(ended.err, Not(HasSubstr("\r")));
     EXPECT_THAT(ended.err, Not(HasSubstr("\033")));
 }

@@ -28,7 +28,7 @@ Progress vibrating() {
 
 TEST(ProgressLine, SaysAll) {
     EXPECT_EQ(progress_line(vibrating(), 200),
-              "vibrating 3.20 of 10.00 s   12.4 M particle-steps/s   frame 96 of 300   1 min 05 s left");
+              "running   3.20 of 10.00 s   12.4 M particle-steps/s   frame 96 of 300   1 min 05 s left");
 }
 
 TEST(ProgressLine, KeepsToTheWidthByWholeParts) {
@@ -40,13 +40,13 @@ TEST(ProgressLine, KeepsToTheWidthByWholeParts) {
         const bool cut = line.size() < whole.size() && !line.empty();
         EXPECT_TRUE(!cut || whole.substr(line.size(), 3) == "   ") << line;
     }
-    EXPECT_EQ(progress_line(vibrating(), 30), "vibrating 3.20 of 10.00 s");
+    EXPECT_EQ(progress_line(vibrating(), 30), "running   3.20 of 10.00 s");
 }
 
 TEST(ProgressLine, OfPackingIsAShare) {
     Progress p;
     p.done = 0.425;
-    EXPECT_EQ(progress_line(p, 80), "growing    42 %");
+    EXPECT_EQ(progress_line(p, 80), "filling    42 %");
     p.stage = Progress::Stage::settling;
     EXPECT_EQ(progress_line(p, 80), "settling   42 %");
 }

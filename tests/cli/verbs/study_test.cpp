@@ -2,22 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "engine/files/measures_csv.hpp"
 #include "render/app/study/study.hpp"
-#include "tests/cli/program.hpp"
-#include "tests/support/small_scene.hpp"
+#include "tests/cli/verbs/study_verb.hpp"
 #include "tests/support/tells.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace grainreel {
 namespace {
@@ -25,68 +18,6 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 using testing::Not;
-namespace fs = std::filesystem;
-
-const std::string four_members = R"(scene = "fifty.toml"
-set = ["run.duration=0.1 s", "film.size=160x120"]
-seeds = 2
-[[vary]]
-key = "drive.g_level"
-values = [2, 3]
-[[measure]]
-name = "kinetic"
-column = "kinetic"
-reduce = "mean"
-)";
-
-std::string replaced(std::string text, const std::string& part, const std::string& other) {
-    const auto at = text.find(part);
-    EXPECT_NE(at, std::string::npos) << part;
-    return text.replace(at, part.size(), other);
-}
-
-// A study whose members run longer than any test waits.
-std::string with_long_runs() {
-    return replaced(four_members, "run.duration=0.1 s", "run.duration=1000 s");
-}
-
-class StudyVerb : public testing::Test {
-  protected:
-    StudyVerb() { write_small_scene(folder_.path()); }
-
-    std::string write(const std::string& text) const {
-        write_text(folder_ / "study.toml", text);
-        return (folder_ / "study.toml").string();
-    }
-    std::vector<std::string> words(const std::string& study, std::vector<std::string> more = {}) const {
-        std::vector<std::string> all{"study", study, "--out", out().string()};
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
-    }
-    fs::path out() const { return folder_ / "out"; }
-    std::vector<fs::path> members() const {
-        std::vector<fs::path> all;
-        for (const auto& entry : fs::directory_iterator(out() / "members")) all.push_back(entry.path());
-        std::sort(all.begin(), all.end());
-        return all;
-    }
-    nlohmann::json record(const fs::path& member) const {
-        return nlohmann::json::parse(std::ifstream(member / "run.json"));
-    }
-    // The cells of the table, row by row.
-    std::vector<std::vector<std::string>> table() const {
-        std::vector<std::vector<std::string>> rows;
-        std::istringstream text(text_of(out() / "study.csv"));
-        for (std::string line; std::getline(text, line);) {
-            rows.emplace_back();
-            std::istringstream cells(line);
-            for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
-        }
-        return rows;
-    }
-
-    TemporaryFolder folder_;
-};
 
 TEST_F(StudyVerb, RunsReducesAndCharts) {
     const Ended ended = run_program(words(write(four_members)), {});
@@ -164,32 +95,6 @@ TEST_F(StudyVerb, ALongerDurationGoesOnWithTheMembers) {
     fs::remove_all(out());
     ASSERT_EQ(run_program(words(write(longer), {"--no-posters"}), {}).status, 0);
     EXPECT_EQ(text_of(out() / "study.csv"), grown);
-}
-
-// The kinetic energy rises with the shaking, so the search comes to its bracket.
-TEST_F(StudyVerb, SearchesAValue) {
-    const std::string study =
-        write(replaced(replaced(replaced(four_members, "values = [2, 3]",
-                                         "from = 1\nto = 5\nuntil = \"kinetic = 1\"\nwithin = 1"),
-                                "seeds = 2", "seeds = 1"),
-                       "run.duration=0.1 s", "run.duration=0.05 s"));
-    const Ended outside = run_program(words(study, {"--no-posters"}), {});
-    ASSERT_EQ(outside.status, 0) << outside.err;
-    EXPECT_THAT(outside.err, tells({"search", "both ends"}));
-    ASSERT_EQ(table().size(), 3u);
-    const double low = std::stod(table()[1][3]), high = std::stod(table()[2][3]);
-    ASSERT_LT(low, high);
-    const std::string inside = replaced(text_of(folder_ / "study.toml"), "kinetic = 1",
-                                        fmt::format("kinetic = {}", 0.5 * (low + high)));
-    const Ended found = run_program(words(write(inside), {"--no-posters"}), {});
-    ASSERT_EQ(found.status, 0) << found.err;
-    EXPECT_EQ(table().size(), 5u) << "1, 5, and two middles";
-    EXPECT_THAT(found.err, tells({"search: Γ =", "one seed"}));
-    EXPECT_THAT(text_of(out() / "index.html"), HasSubstr("Search: "));
-    const std::string rows = text_of(out() / "settings.csv");
-    const Ended again = run_program(words(write(inside), {"--no-posters"}), {});
-    EXPECT_EQ(text_of(out() / "settings.csv"), rows);
-    EXPECT_THAT(again.err, HasSubstr("search: Γ ="));
 }
 
 TEST_F(StudyVerb, RunsOneVariantAlone) {
