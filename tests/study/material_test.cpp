@@ -114,16 +114,28 @@ TEST(StudyParametersTable, TellsWhatDiffersAndWhatDoesNot) {
         ++settings;
     });
     EXPECT_EQ(settings, 2u);
-    const std::string table = parameters.table();
-    EXPECT_THAT(table, testing::StartsWith("key,value,1,2\nprogram.version,"));
-    EXPECT_THAT(table, HasSubstr("\ndrive.frequency,20,,\n"));
-    EXPECT_THAT(table,
-                testing::AllOf(HasSubstr("\ncontact.pair[0].stiffness,,"), HasSubstr("\ndrive.amplitude,,"),
-                               HasSubstr("\nrun.step,"), HasSubstr("\nrun.accuracy,")));
+    const std::string table = parameters.table(study);
+    EXPECT_THAT(table, testing::StartsWith("key,unit,value,1,2,meaning\nsetting,,,Γ = 2.5,Γ = 4,\n"
+                                           "drive.g_level,,,2.5,4,\nprogram.version,"));
+    EXPECT_THAT(table, HasSubstr("\ndrive.frequency,Hz,20,,,"));
+    EXPECT_THAT(table, testing::AllOf(HasSubstr("\n\"contact.pair[big, small].stiffness\",N/m,,"),
+                                      HasSubstr("\ndrive.amplitude,m,,"), HasSubstr("\nrun.step,s,"),
+                                      HasSubstr("\nrun.accuracy,,"), HasSubstr("\nspecies.big.diameter,m,")));
     const Methods methods = parameters.methods(study);
     EXPECT_THAT(methods.paragraph, tells({"Γ: 2.5, 4", "first setting", "Walton1986"}));
     EXPECT_THAT(methods.bibtex, testing::ContainsRegex("grainreel.*\n.*\n.*\n.*\n  year = .20[0-9][0-9]"));
     EXPECT_THAT(methods.bibtex, HasSubstr("@article{Walton1986"));
+}
+
+TEST(StudyParametersTable, HasSeedsAndUnitsOfWhatIsVaried) {
+    const StudyFolderOfTest folder;
+    const Study study = folder.read(small_study);
+    StudyParameters parameters;
+    make_members(study,
+                 [&](const FilmedScene& scene, const Plan& plan) { parameters.add_setting(scene, plan); });
+    const std::string table = parameters.table(study);
+    EXPECT_THAT(table, HasSubstr("\nspecies.big.diameter,mm,,5,5.5,6,5,5.5,6,\n"));
+    EXPECT_THAT(table, HasSubstr("\nrun.seed,,\"1, 2\",,,,,,,\n"));
 }
 
 }  // namespace

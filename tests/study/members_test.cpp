@@ -12,6 +12,8 @@
 #include "engine/base/text.hpp"
 #include "engine/plan/reach.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "render/app/study/members/runner.hpp"
+#include "render/app/study/results/points.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/study/study_text.hpp"
 #include "tests/support/tells.hpp"
@@ -118,6 +120,40 @@ TEST(StudyMembers, NamesAreHarmless) {
     EXPECT_EQ(file_name_part("../a b;$(x)"), "_..-ab---x-");
     EXPECT_EQ(file_name_part(""), "_");
     EXPECT_EQ(file_name_part(std::string(500, 'x')).size(), 60u);
+}
+
+const char* const one_triangle =
+    "solid plate\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0.03\nvertex 0.01 0 0.03\nvertex 0 0.01 0.03\n"
+    "endloop\nendfacet\nendsolid plate\n";
+
+// What lies in a study's folder can be run again without the files from which it was made.
+TEST(StudyCopy, IsAStudyAsItStands) {
+    const TemporaryFolder made;
+    const StudyFolder copies{made.path()};
+    std::vector<std::string> names;
+    {
+        const StudyFolderOfTest folder;
+        std::filesystem::create_directories(folder / "walls");
+        write_text(folder / "walls/plate.stl", one_triangle);
+        write_text(folder / "fifty.toml",
+                   small_scene_text + "[[mesh]]\nname = \"plate\"\nfile = \"walls/plate.stl\"\n");
+        write_text(folder / "points.csv", "x,y\n2,0.5\n");
+        const Study study = folder.read("# Γ, and its \"scene\"\n" + small_study +
+                                        "reference = \"points.csv\"  # of others\n");
+        const auto members = make_members(study, [](const FilmedScene&, const Plan&) {});
+        for (const Member& member : members) names.push_back(member.name);
+        make_study_folder(study, members, copies);
+    }
+    const Study again = read_study(made / "study.toml");
+    EXPECT_EQ(again.title, "study");
+    EXPECT_EQ(read_reference(*again.charts[0].reference).size(), 1u);
+    const auto members = make_members(again, [](const FilmedScene&, const Plan&) {});
+    ASSERT_EQ(members.size(), names.size());
+    for (std::size_t m = 0; m < members.size(); ++m) EXPECT_EQ(members[m].name, names[m]);
+    // Written over itself it stays the same.
+    const std::string text = text_of(made / "study.toml");
+    make_study_folder(again, members, copies);
+    EXPECT_EQ(text_of(made / "study.toml"), text);
 }
 
 }  // namespace

@@ -49,12 +49,24 @@ double summed_variance(Indices grains, int samples, const std::vector<Vec3>& pos
 
 }  // namespace
 
+namespace {
+
+int samples_of(std::size_t count) {
+    return std::max(2, static_cast<int>(count) / kLaceySample);
+}
+
+}  // namespace
+
+double grains_per_sample(std::size_t count) {
+    return static_cast<double>(count) / samples_of(count);
+}
+
 Samples take_samples(const std::vector<Vec3>& position, const std::vector<std::uint8_t>& marked) {
     const double count = static_cast<double>(position.size());
-    const int samples = std::max(2, static_cast<int>(position.size()) / kLaceySample);
+    const int samples = samples_of(position.size());
     Samples taken;
     taken.share = std::accumulate(marked.begin(), marked.end(), 0.0) / count;
-    taken.grains = count / samples;
+    taken.grains = grains_per_sample(position.size());
     if (count < samples) return taken;
     std::vector<std::int32_t> grains(position.size());
     std::iota(grains.begin(), grains.end(), 0);

@@ -36,6 +36,8 @@ struct Samples {
     }  // s0^2, if each sample were of one kind
     double rare_grains() const { return std::min(share, 1 - share) * grains; }  // mean per sample
 };
+// The mean number of grains per sample when `count` grains are divided.
+double grains_per_sample(std::size_t count);
 // `marked` is 1 for the grains whose share is taken, and 0 for the others.
 Samples take_samples(const std::vector<Vec3>& position, const std::vector<std::uint8_t>& marked);
 

@@ -2,6 +2,7 @@
 // unlike_neighbours.hpp.
 #pragma once
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -16,6 +17,24 @@ namespace grainreel::observers {
 // Why a scene has no values that compare two species; empty where it may have some.
 inline std::string without_two_kinds(const Scene& scene) {
     return scene.species.size() > 1 ? "" : "it compares two species, and the scene has one";
+}
+
+// Why Lacey's index has no value at any moment: a kind is too rare. Empty where it may have one, and where
+// grains come or leave, so that shares change.
+inline std::string with_few_of_a_kind(const Scene& scene) {
+    const BigAndSmall kinds = big_and_small(scene.species);
+    std::int64_t all = 0;
+    for (const Species& species : scene.species) all += species.count;
+    const bool stays = scene.feeds.empty() && scene.exits.empty() && !scene.container.outlet;
+    if (all == 0 || !stays || scene.start.method == Start::Method::file) return "";
+    const std::int64_t big = scene.species[kinds.big].count, rare = std::min(big, all - big);
+    const double in_sample = static_cast<double>(rare) / static_cast<double>(all) *
+                             grains_per_sample(static_cast<std::size_t>(all));
+    if (in_sample >= kLeastOfRareKind) return "";
+    return fmt::format(
+        "{} of {} grains are {:.2g} in a sample of {:.0f}, and it needs {:g}; take height_difference, "
+        "big_above_small or unlike_neighbours",
+        rare, all, in_sample, grains_per_sample(static_cast<std::size_t>(all)), kLeastOfRareKind);
 }
 
 // Observer of the height of big grains above small ones.
@@ -124,7 +143,10 @@ class Mixing final : public Observer {
              "intensity of segregation by Danckwerts, from the samples of `lacey`: 1 segregated, about "
              "1/32 randomly mixed"}};
     }
-    static std::string why_empty(const Scene& scene, const std::string&) { return without_two_kinds(scene); }
+    static std::string why_empty(const Scene& scene, const std::string& column) {
+        const std::string one_kind = without_two_kinds(scene);
+        return one_kind.empty() && column == "lacey" ? with_few_of_a_kind(scene) : one_kind;
+    }
     void look(const ObservedState& m, std::vector<double>& row) override {
         if (!m.has_two_kinds()) return add_no_values(row, 2);
         const BigAndSmall kinds = big_and_small(m.scene.species);

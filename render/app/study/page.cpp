@@ -1,14 +1,16 @@
 #include "render/app/study/page.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "engine/base/counted.hpp"
+#include "render/app/study/results/captions.hpp"
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/points.hpp"
 #include "render/app/study/results/summary.hpp"
+#include "render/app/study/results/warnings.hpp"
 #include "render/page/embed.hpp"
 
 namespace grainreel {
@@ -105,13 +107,19 @@ std::string charts_without_points(const Study& study, const std::vector<Member>&
     return text;
 }
 
-bool comes_up_in_some(const Study& study, const std::vector<Member>& members,
+// What the marks of all charts are, each sentence once.
+std::string legend_of(const Study& study, const std::vector<Member>& members,
                       const std::vector<MemberResult>& results) {
+    std::vector<std::string> said;
+    std::string text;
     for (const StudyChart& chart : study.charts)
-        for (const ChartSeries& series : chart_series(study, members, results, chart))
-            for (const ChartPoint& point : series.points)
-                if (!point.y.came_up_everywhere()) return true;
-    return false;
+        for (const std::string& sentence : legend_sentences(study.measures[chart.y].average,
+                                                            chart_series(study, members, results, chart))) {
+            if (std::find(said.begin(), said.end(), sentence) != said.end()) continue;
+            said.push_back(sentence);
+            text += html_text(sentence) + ". ";
+        }
+    return text.empty() ? "" : "<p>" + text + "</p>\n";
 }
 
 std::string chart_figures(const Study& study, const std::vector<Member>& members,
@@ -129,18 +137,8 @@ std::string chart_figures(const Study& study, const std::vector<Member>& members
     }
     text += charts_without_points(study, members, results);
     if (text.empty()) return "";
-    const char* bars = study.has_intervals()
-                           ? "<p>Points are means over seeds; bars are 95 % intervals of the mean "
-                             "(Student’s t). Where there are fewer than five seeds, small rings show each of "
-                             "them. Points of several series stand a little aside of each other.</p>\n"
-                           : "";
-    const char* open =
-        comes_up_in_some(study, members, results)
-            ? "<p>Open symbols are no means: the measure came up in some seeds only, as the "
-              "number beside them says. ↑ and ≥ stand at a lower bound: what did not come up by the "
-              "end of a run comes later.</p>\n"
-            : "";
-    return fmt::format("<h2>Charts</h2>\n{}{}<div class=\"charts\">\n{}</div>\n", bars, open, text);
+    return fmt::format("<h2>Charts</h2>\n{}<div class=\"charts\">\n{}</div>\n",
+                       legend_of(study, members, results), text);
 }
 
 // The index of the first member of each setting, in the order of settings.
@@ -151,6 +149,24 @@ std::vector<std::size_t> first_members(const std::vector<Member>& members) {
     return firsts;
 }
 
+// What the numbers of the table are, where it needs saying.
+std::string table_words(const Study& study, const std::vector<std::vector<SeedSummary>>& columns) {
+    std::string text;
+    if (!study.has_intervals()) text += "One seed for each setting, so there is no interval. ";
+    bool brackets = false, cut = false;
+    for (const std::vector<SeedSummary>& column : columns)
+        for (const SeedSummary& one : column) {
+            brackets = brackets || (std::isnan(one.value) && std::isfinite(one.of_some) && !one.is_bound);
+            cut = cut || one.cut_at_zero;
+        }
+    if (study.has_intervals() && study.joins_by(SeedAverage::mean)) text += "\u00b1 is a 95 % interval. ";
+    if (study.joins_by(SeedAverage::median))
+        text += "A median has an interval from six seeds on, and is known while more than half came up. ";
+    if (brackets) text += "A number in brackets is the mean of the seeds in which the measure came up. ";
+    if (cut) text += "Intervals of what cannot be negative are cut off at zero. ";
+    return text.empty() ? "" : "<p>" + text + "</p>\n";
+}
+
 std::string settings_table(const Study& study, const std::vector<Member>& members,
                            const std::vector<MemberResult>& results) {
     if (study.measures.empty()) return "";
@@ -158,23 +174,32 @@ std::string settings_table(const Study& study, const std::vector<Member>& member
     for (const Variation& variation : study.variations)
         text += fmt::format("<th>{}</th>", html_text(variation.shown));
     for (const StudyMeasure& measure : study.measures)
-        text += fmt::format("<th>{}</th>", html_text(measure.title()));
+        text += fmt::format("<th>{}{}</th>", html_text(measure.title()),
+                            measure.average == SeedAverage::median ? "<br><small>median</small>" : "");
     text += "<th>complete</th></tr></thead>\n";
-    for (const std::size_t m : first_members(members)) {
+    const std::vector<std::size_t> firsts = first_members(members);
+    std::vector<std::vector<SeedSummary>> columns(study.measures.size());
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        for (const std::size_t m : firsts)
+            columns[i].push_back(scaled(setting_summary(study, members, results, members[m].setting, i),
+                                        study.measures[i].shown().factor));
+    std::vector<std::vector<std::string>> cells;
+    for (const std::vector<SeedSummary>& column : columns) cells.push_back(column_texts(column));
+    for (std::size_t row = 0; row < firsts.size(); ++row) {
+        const std::size_t m = firsts[row];
         text += "<tr>";
         for (std::size_t i = 0; i < study.variations.size(); ++i)
             text += fmt::format("<td>{}</td>", html_text(study.variations[i].values[members[m].at[i]].words));
         for (std::size_t i = 0; i < study.measures.size(); ++i) {
-            const SeedSummary all = setting_summary(study, members, results, members[m].setting, i);
-            const std::string some = came_up_text(all);
-            text += fmt::format("<td class=\"number\">{}{}</td>", summary_text(all),
+            const std::string some = came_up_text(columns[i][row]);
+            text += fmt::format("<td class=\"number\">{}{}</td>", cells[i][row],
                                 some.empty() ? "" : "<br><small>" + some + "</small>");
         }
         text += fmt::format("<td class=\"number\">{} of {}</td></tr>\n",
                             setting_complete(members, results, members[m].setting),
                             study.seed_count(members[m].at));
     }
-    return text + "</table></div>\n";
+    return text + "</table></div>\n" + table_words(study, columns);
 }
 
 // The film of a member or its poster, whichever is there.
@@ -216,20 +241,16 @@ std::string failures(const Study& study, const std::vector<Member>& members,
     return text.empty() ? "" : fmt::format("<h2>Failed</h2>\n<ul>\n{}</ul>\n", text);
 }
 
-std::string warnings(const std::vector<MemberResult>& results) {
-    std::map<std::string, std::size_t> counts;
-    for (const MemberResult& result : results)
-        for (const std::string& warning : result.warnings) ++counts[warning];
+std::string warnings(const Study& study, const std::vector<Member>& members,
+                     const std::vector<MemberResult>& results) {
+    const std::vector<SharedWarning> all = shared_warnings(results);
     std::string text;
-    std::size_t listed = 0;
-    for (const auto& [warning, count] : counts) {
-        if (listed++ == most_warnings) {
-            text += fmt::format("<li>and {} more, which stand in run.json of the members</li>\n",
-                                counts.size() - most_warnings);
-            break;
-        }
-        text += fmt::format("<li>{} (members: {})</li>\n", html_text(warning), count);
-    }
+    for (std::size_t i = 0; i < std::min(all.size(), most_warnings); ++i)
+        text += fmt::format("<li>{} ({})</li>\n", html_text(all[i].text),
+                            html_text(members_text(study, members, all[i].members)));
+    if (all.size() > most_warnings)
+        text += fmt::format("<li>and {} more, which stand in run.json of the members</li>\n",
+                            all.size() - most_warnings);
     return text.empty() ? "" : fmt::format("<h2>Warnings</h2>\n<ul>\n{}</ul>\n", text);
 }
 
@@ -262,7 +283,7 @@ std::string study_page(const Study& study, const std::vector<Member>& members,
                html_text(study.title), style, html_text(summary(study, results))) +
            chart_figures(study, members, results, charts) + settings_table(study, members, results) + told +
            methods_part(methods) + posters(study, members, folder) + failures(study, members, results) +
-           warnings(results) + "</body>\n</html>\n";
+           warnings(study, members, results) + "</body>\n</html>\n";
 }
 
 }  // namespace grainreel

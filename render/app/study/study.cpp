@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/typed_time.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/scene/axis_titles.hpp"
 
 namespace grainreel {
@@ -73,6 +74,32 @@ std::string axis_title(const std::string& label, const std::string& unit) {
     return with_unit(label, unit);
 }
 
+namespace {
+
+// Words of a label that may be a unit: in the last brackets, behind the last comma, behind the last "in".
+std::vector<std::string> possible_units(const std::string& label) {
+    std::vector<std::string> all;
+    const std::size_t open = label.find_last_of("(["), close = label.find_last_of(")]");
+    if (open != std::string::npos && close != std::string::npos && open < close)
+        all.push_back(label.substr(open + 1, close - open - 1));
+    for (const std::string_view before : {", ", " in "})
+        if (const std::size_t at = label.rfind(before); at != std::string::npos)
+            all.push_back(label.substr(at + before.size()));
+    return all;
+}
+
+}  // namespace
+
+ShownUnit shown_unit(const std::string& label, const std::string& unit) {
+    if (unit.empty() || axis_title(label, unit) == label) return {unit, 1};
+    const std::optional<AnyUnit> own = parse_unit(unit);
+    for (const std::string& name : possible_units(label)) {
+        const std::optional<AnyUnit> named = own ? parse_unit(name) : std::nullopt;
+        if (named && named->powers == own->powers && named->size > 0) return {name, own->size / named->size};
+    }
+    return {unit, 1};
+}
+
 Assignments Variation::assignments(std::size_t number) const {
     const Value& value = values[number];
     if (key == variant_axis) return value.sets;
@@ -109,6 +136,25 @@ bool Study::has_seeds() const {
 
 bool Study::has_intervals() const {
     return any_seeds(*this, [](const Seeds& some) { return some.size() > 1; });
+}
+
+ShownUnit unit_of_x(const Study& study, const StudyChart& chart) {
+    const Variation& axis = study.variations[chart.x];
+    return shown_unit(chart.x_label.empty() ? axis.shown : chart.x_label, axis.unit);
+}
+
+ShownUnit unit_of_y(const Study& study, const StudyChart& chart) {
+    const StudyMeasure& measure = study.measures[chart.y];
+    return shown_unit(chart.y_label.empty() ? measure.label : chart.y_label, measure.unit);
+}
+
+double shown_x(const Study& study, const StudyChart& chart, double number) {
+    return chart.x_per_words.empty() ? number * unit_of_x(study, chart).factor : number / chart.x_per;
+}
+
+bool Study::joins_by(SeedAverage average) const {
+    return std::any_of(measures.begin(), measures.end(),
+                       [&](const StudyMeasure& measure) { return measure.average == average; });
 }
 
 double mean_of_values(const std::vector<double>& values) {

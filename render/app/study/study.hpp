@@ -23,6 +23,14 @@ using Seeds = std::vector<std::uint64_t>;
 // label names it by itself: "rate of the drum, rad/s".
 std::string axis_title(const std::string& label, const std::string& unit);
 
+// The unit in which the numbers of an axis are shown: that which its label names, if it is another one of the
+// same kind ("energy (mJ)", "height in mm"), else `unit`. Numbers are multiplied by `factor`.
+struct ShownUnit {
+    std::string unit;
+    double factor = 1;
+};
+ShownUnit shown_unit(const std::string& label, const std::string& unit);
+
 // One axis of the grid: a key of the scene and the values that it takes. The variants of a study are an axis
 // too, the first one: its key is `variant_axis`, and its values are their names.
 struct Variation {
@@ -71,11 +79,14 @@ struct StudyMeasure {
     std::string label;
     std::string column;  // column of measures.csv
     Reduction reduction;
-    std::string unit = {};  // of the number, on charts; empty for none
+    std::string unit = {};         // of the number, on charts; empty for none
+    std::string column_unit = {};  // of the column, and so of the threshold; empty for none
     SeedAverage average = SeedAverage::mean;
     std::string place = {};  // of its column in the study file, for messages
+    bool from_zero = false;  // it cannot be negative, so its intervals are cut off at zero
 
-    std::string title() const { return axis_title(label, unit); }
+    ShownUnit shown() const { return shown_unit(label, unit); }
+    std::string title() const { return axis_title(label, shown().unit); }
 };
 
 struct StudyChart {
@@ -104,7 +115,8 @@ struct StudySearch {
     double within = 0;         // how narrow the bracket is to become, in the key's unit
     std::string written_unit;  // behind the key's values in the study file; empty for none
     std::string words;         // "angle = 24"
-    std::string place;         // in the study file, for messages
+    std::optional<std::array<double, 3>> found = {};  // low end, estimate and high end so far
+    std::string place;                                // in the study file, for messages
 };
 
 struct Study {
@@ -130,7 +142,14 @@ struct Study {
     // Whether any setting has seeds, and whether any has several of them.
     bool has_seeds() const;
     bool has_intervals() const;
+    // Whether any measure is joined over the seeds in that way.
+    bool joins_by(SeedAverage average) const;
 };
+
+// The units in which a chart shows x and y, and the place of a number of the key along x.
+ShownUnit unit_of_x(const Study& study, const StudyChart& chart);
+ShownUnit unit_of_y(const Study& study, const StudyChart& chart);
+double shown_x(const Study& study, const StudyChart& chart, double number);
 
 // Reduces a column to one number. This function and those below depend on times and values alone.
 //

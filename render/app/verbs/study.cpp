@@ -29,6 +29,7 @@
 #include "render/app/study/results/parameters.hpp"
 #include "render/app/study/results/results.hpp"
 #include "render/app/study/results/search.hpp"
+#include "render/app/study/results/warnings.hpp"
 #include "render/app/verbs/verbs.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -146,6 +147,12 @@ class StudyVerb final : public Verb {
             const SearchStep step = next_step(tried, study.search->wanted, study.search->within);
             const Variation& key = study.variations[0];
             search_ = search_text(step, key.shown, key.unit, study.has_intervals());
+            search_file_ =
+                search_json(*study.search, step, key.key, key.unit, study.measures[study.search->measure]);
+            study.search->found.reset();
+            if (step.verdict != SearchStep::Verdict::unknown &&
+                step.verdict != SearchStep::Verdict::not_in_range)
+                study.search->found = {step.low, step.estimate, step.high};
             if (step.verdict != SearchStep::Verdict::go_on) break;
             study.try_value(step.next);
             prepare(study);
@@ -188,6 +195,12 @@ class StudyVerb final : public Verb {
         for (const Member& member : members_) request_.wanted.push_back(chosen[member.at.front()]);
     }
 
+    // "1.5 to 4"; one value alone is no range.
+    static std::string range_of(const Variation& variation) {
+        const std::string &first = variation.values.front().words, &last = variation.values.back().words;
+        return variation.values.size() == 1 ? first : first + " to " + last;
+    }
+
     static std::string names_of(const Variation& variation) {
         std::vector<std::string> names;
         for (const Variation::Value& value : variation.values) names.push_back(value.words);
@@ -227,9 +240,8 @@ class StudyVerb final : public Verb {
         for (const Variation& variation : study.variations)
             text += variation.key == variant_axis
                         ? fmt::format("variants     {}\n", names_of(variation))
-                        : fmt::format("vary         {}: {}, {} to {}\n", variation.key,
-                                      counted(variation.values.size(), "value"),
-                                      variation.values.front().words, variation.values.back().words);
+                        : fmt::format("vary         {}: {}, {}\n", variation.key,
+                                      counted(variation.values.size(), "value"), range_of(variation));
         text += fmt::format("members      {} = {}, {} of them to be run\n", members_.size(), reckoned,
                             left.size());
         if (const std::size_t longer = shorter_runs(members_, folder_).size(); longer > 0)
@@ -319,7 +331,9 @@ class StudyVerb final : public Verb {
     std::vector<std::string> notes() const {
         std::vector<std::string> all;
         if (!search_.empty()) all.push_back("Search: " + search_);
-        if (!stiffness_.empty()) all.push_back("Stiffness: " + stiffness_);
+        if (!stiffness_.empty())
+            all.push_back("Stiffness: " + stiffness_ +
+                          ". A member alone, run again from its own scene.toml, gives the same bits");
         return all;
     }
 
@@ -331,16 +345,19 @@ class StudyVerb final : public Verb {
     }
 
     void write_results(const Study& study, const std::vector<std::vector<ReferencePoint>>& references,
-                       Reporter& reporter) const {
+                       Reporter& reporter) {
         replace_file(folder_.path / "study.csv", study_table(study, members_, results_));
         replace_file(folder_.path / "settings.csv", setting_table(study, members_, results_));
-        replace_file(folder_.path / "parameters.csv", parameters_.table());
+        replace_file(folder_.path / "units.csv", unit_table(study));
+        if (!search_file_.empty()) replace_file(folder_.path / "search.json", search_file_);
+        replace_file(folder_.path / "parameters.csv", parameters_.table(study));
         const DrawnCharts charts = draw_charts(study, members_, results_, references, folder_.charts());
         if (!charts.drawn)
             reporter.warning(
                 "gnuplot is missing or failed, so there are tables but no charts; install gnuplot-nox "
                 "and give the same command again");
-        const Methods methods = parameters_.methods(study);
+        charts_ = charts.stems.size();
+        const Methods methods = parameters_.methods(study, stiffness_);
         replace_file(folder_.path / "methods.txt", methods.paragraph + "\n");
         replace_file(folder_.path / "sources.bib", methods.bibtex);
         replace_file(folder_.path / "index.html",
@@ -359,15 +376,33 @@ class StudyVerb final : public Verb {
         const auto complete = count(MemberResult::Status::complete),
                    failed = count(MemberResult::Status::failed);
         tell_gaps(study, reporter);
-        reporter.info(fmt::format("{} of {} members are complete{}; wrote study.csv, charts/, index.html",
-                                  complete, results_.size(),
-                                  failed > 0 ? fmt::format(", {} failed", failed) : ""));
+        tell_warnings(study, reporter);
+        const std::string charts =
+            charts_ > 0 ? fmt::format("{} in charts/, ", counted(charts_, "chart")) : "";
+        reporter.info(fmt::format("{} of {} members are complete{}; wrote study.csv, {}index.html", complete,
+                                  results_.size(), failed > 0 ? fmt::format(", {} failed", failed) : "",
+                                  charts));
+        if (reporter.stop_signal() != 0) tell_search(false, reporter);
         print_exact(folder_.path.string() + "\n");
         if (reporter.stop_signal() != 0) {
             reporter.info("stopped; the same command goes on");
             return signal_base + reporter.stop_signal();
         }
         return failed > 0 ? 1 : 0;
+    }
+
+    // Passes on what members warned of, and says where a study has no intervals.
+    void tell_warnings(const Study& study, Reporter& reporter) const {
+        constexpr std::size_t most = 3;
+        const std::vector<SharedWarning> all = shared_warnings(results_);
+        for (std::size_t i = 0; i < std::min(all.size(), most); ++i)
+            reporter.warning(
+                fmt::format("{}: {}", members_text(study, members_, all[i].members), all[i].text));
+        if (all.size() > most)
+            reporter.warning(fmt::format("{} more of the members are in index.html",
+                                         counted(all.size() - most, "warning")));
+        if (!study.measures.empty() && !study.has_intervals() && reporter.stop_signal() == 0)
+            reporter.warning("one seed for each setting: there are no intervals; seeds = 5 gives some");
     }
 
     // Warns of members without a value: their settings have no mean.
@@ -378,15 +413,21 @@ class StudyVerb final : public Verb {
                 if (result.status == MemberResult::Status::complete)
                     ++complete, gaps += std::isnan(result.values[i]) ? 1 : 0;
             if (gaps == 0) continue;
-            const bool passage = study.measures[i].reduction.has_threshold();
+            const bool median = study.measures[i].average == SeedAverage::median;
             reporter.warning(
-                fmt::format("{} came up in {} of {} complete members; settings in which it did not "
-                            "come up everywhere have no mean. {}",
+                fmt::format("{} came up in {} of {} complete members; settings in which it {} have no {}. {}",
                             study.measures[i].name, complete - gaps, complete,
-                            passage ? "The threshold was not reached; a longer run.duration, "
-                                      "reduce = \"share\" or average = \"median\" may tell more"
-                                    : "Its column is empty there, or its window has no row"));
+                            median ? "came up in half or less" : "did not come up everywhere",
+                            median ? "median" : "mean", remedy_for_gaps(study.measures[i])));
         }
+    }
+
+    static std::string remedy_for_gaps(const StudyMeasure& measure) {
+        if (!measure.reduction.has_threshold()) return "Its column is empty there, or its window has no row";
+        return fmt::format(
+            "The threshold was not reached; a longer run.duration{} reduce = \"share\"{} may tell more",
+            measure.average == SeedAverage::median ? " or" : ",",
+            measure.average == SeedAverage::median ? "" : " or average = \"median\"");
     }
 
     std::filesystem::path file_;
@@ -401,7 +442,9 @@ class StudyVerb final : public Verb {
     StudyFolder folder_;
     std::unique_ptr<StudyEstimate> estimate_;
     StudyParameters parameters_;
-    std::string search_;  // where the search stands, in words; empty for none
+    std::string search_;       // where the search stands, in words; empty for none
+    std::string search_file_;  // the same for search.json
+    std::size_t charts_ = 0;   // so many were drawn
     std::vector<Member> members_;
     std::vector<MemberResult> results_;
 };

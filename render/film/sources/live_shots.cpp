@@ -42,6 +42,7 @@ void LiveShots::start(const Pictures& pictures) {
     shots_ = shots_of(pictures);
     segments_ = pictures.segments;
     bed_periods_.emplace(scene_, clock, shots_, segments_, pictures.may_leave_out);
+    if (driver_.goes_on()) recall_bed_periods();
     parts_.emplace(scene_, clock, driver_.first_step());
     if (shows_wear(scene_)) read_wear_before();
     driver_.start(wishes());
@@ -184,6 +185,17 @@ std::vector<Due> LiveShots::due_at(std::int64_t step) const {
     for (; shot != shots_.end() && shot->step == step; ++shot)
         if (bed_periods_->shows(rule(shot->segment), *shot)) due.push_back(*shot);
     return due;
+}
+
+// What was found of the bed's periods before the run was broken off. Without it the warning would tell the
+// time from which the run goes on, as if the bed had only begun to repeat itself otherwise.
+void LiveShots::recall_bed_periods() {
+    const std::shared_ptr<const MeasureTable> rows = read_measures(driver_.folder() / "measures.csv");
+    if (rows == nullptr) return;
+    const MeasuredPeriods before(*rows);
+    for (const MeasuredPeriods::Row& row : before.rows())
+        if (row.step <= static_cast<double>(driver_.simulation().step()))
+            bed_periods_->note(static_cast<std::int64_t>(row.step), row.periods, row.difference);
 }
 
 void LiveShots::look_at_bed_periods(const SimulatedBed& simulation) {

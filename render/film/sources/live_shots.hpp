@@ -56,6 +56,7 @@ class LiveShots final : public ShotSource {
     void read_earlier();
     Taken next_earlier();
     StatePtr filed(std::int64_t step) const;
+    void recall_bed_periods();
     void look_at_bed_periods(const SimulatedBed& simulation);
     void look_at_wear(const SimulatedBed& simulation);
     void read_wear_before();

@@ -66,13 +66,13 @@ constexpr Source sources[] = {
     {"Cundall1979",
      "@article{Cundall1979,\n  author = {Cundall, P. A. and Strack, O. D. L.},\n"
      "  title = {A discrete numerical model for granular assemblies},\n  journal = {G{\\'e}otechnique},\n"
-     "  volume = {29},\n  pages = {47--65},\n  year = {1979}\n}\n"},
+     "  volume = {29},\n  pages = {47--65},\n  year = {1979},\n  doi = {10.1680/geot.1979.29.1.47}\n}\n"},
     {"Walton1986",
      "@article{Walton1986,\n  author = {Walton, O. R. and Braun, R. L.},\n"
      "  title = {Viscosity, granular-temperature, and stress calculations for shearing assemblies of "
      "inelastic, "
      "frictional disks},\n  journal = {Journal of Rheology},\n  volume = {30},\n  pages = {949--980},\n"
-     "  year = {1986}\n}\n"},
+     "  year = {1986},\n  doi = {10.1122/1.549893}\n}\n"},
     {"Walton1993",
      "@incollection{Walton1993,\n  author = {Walton, O. R.},\n"
      "  title = {Numerical simulation of inelastic, frictional particle-particle interactions},\n"
@@ -81,22 +81,24 @@ constexpr Source sources[] = {
     {"Schwager2007",
      "@article{Schwager2007,\n  author = {Schwager, T. and P{\\\"o}schel, T.},\n"
      "  title = {Coefficient of restitution and linear-dashpot model revisited},\n"
-     "  journal = {Granular Matter},\n  volume = {9},\n  pages = {465--469},\n  year = {2007}\n}\n"},
+     "  journal = {Granular Matter},\n  volume = {9},\n  pages = {465--469},\n  year = {2007},\n"
+     "  doi = {10.1007/s10035-007-0065-z}\n}\n"},
     {"Tsuji1992",
      "@article{Tsuji1992,\n  author = {Tsuji, Y. and Tanaka, T. and Ishida, T.},\n"
      "  title = {Lagrangian numerical simulation of plug flow of cohesionless particles in a horizontal "
      "pipe},\n"
-     "  journal = {Powder Technology},\n  volume = {71},\n  pages = {239--250},\n  year = {1992}\n}\n"},
+     "  journal = {Powder Technology},\n  volume = {71},\n  pages = {239--250},\n  year = {1992},\n"
+     "  doi = {10.1016/0032-5910(92)88030-L}\n}\n"},
     {"Thornton2013",
      "@article{Thornton2013,\n  author = {Thornton, C. and Cummins, S. J. and Cleary, P. W.},\n"
      "  title = {An investigation of the comparative behaviour of alternative contact force models during "
      "inelastic collisions},\n  journal = {Powder Technology},\n  volume = {233},\n  pages = {30--46},\n"
-     "  year = {2013}\n}\n"},
+     "  year = {2013},\n  doi = {10.1016/j.powtec.2012.08.012}\n}\n"},
     {"Iwashita1998",
      "@article{Iwashita1998,\n  author = {Iwashita, K. and Oda, M.},\n"
      "  title = {Rolling resistance at contacts in simulation of shear band development by {DEM}},\n"
      "  journal = {Journal of Engineering Mechanics},\n  volume = {124},\n  pages = {285--292},\n"
-     "  year = {1998}\n}\n"},
+     "  year = {1998},\n  doi = {10.1061/(ASCE)0733-9399(1998)124:3(285)}\n}\n"},
 };
 
 // Writes a clause for each law of the plan's contacts, with the keys of its sources.
@@ -194,6 +196,14 @@ std::string meshes_text(const FilmedScene& scene) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+// "7.432 \u00b5s": four digits in a unit in which they stand before the point.
+std::string step_text(double seconds) {
+    const std::pair<const char*, double> units[] = {{"s", 1}, {"ms", 1e-3}, {"\u00b5s", 1e-6}, {"ns", 1e-9}};
+    for (const auto& [unit, size] : units)
+        if (seconds >= 0.5 * size) return fmt::format("{:.4g} {}", seconds / size, unit);
+    return fmt::format("{:.4g} s", seconds);
+}
+
 std::string program_entry(const RunJson& record) {
     const std::string& time = record.finished.empty() ? record.started : record.finished;
     return fmt::format(
@@ -205,7 +215,7 @@ std::string program_entry(const RunJson& record) {
 }  // namespace
 
 Methods methods(const FilmedScene& scene, const Plan& plan, const RunJson& record,
-                const std::vector<std::pair<std::string, std::string>>& lines) {
+                const std::vector<std::pair<std::string, std::string>>& lines, const std::string& seeds) {
     const LawWords laws(plan);
     Methods result;
     result.paragraph = fmt::format(
@@ -213,14 +223,15 @@ Methods methods(const FilmedScene& scene, const Plan& plan, const RunJson& recor
         "Grains: {}. "
         "Container: {}. Gravity: {}. Drive: {}. In contacts {}. The restitution is {}, the coefficient of "
         "friction "
-        "{}. Equations of motion were integrated by {} with a step of {:.4g} s, {} steps. Random numbers "
-        "have the seed "
-        "{}.",
+        "{}. Start: {}. Equations of motion were integrated by {} with a step of {}, {} steps for {:.6g} s. "
+        "Random "
+        "numbers have the {}.",
         record.version, words_of(lines, "grains"), words_of(lines, "container"), words_of(lines, "gravity"),
         words_of(lines, "drive"), laws.text(),
         range_text(plan, [](const PairPlan& pair) { return pair.restitution; }),
-        range_text(plan, [](const PairPlan& pair) { return pair.friction; }), name_of(plan.integrator),
-        plan.clock.step, plan.steps, scene.run.seed);
+        range_text(plan, [](const PairPlan& pair) { return pair.friction; }), words_of(lines, "start"),
+        name_of(plan.integrator), step_text(plan.clock.step), plan.steps, scene.run.duration,
+        seeds.empty() ? fmt::format("seed {}", scene.run.seed) : seeds);
     if (!scene.meshes.empty())
         result.paragraph += fmt::format(
             " Walls from triangle meshes: {}. A grain has one contact with each connected patch of a surface "

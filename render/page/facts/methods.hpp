@@ -26,8 +26,8 @@ struct Methods {
 };
 
 // lines: the plan in words, by name, as `grainreel check` prints them. The paragraph describes grains,
-// container and drive in the same words.
+// container, drive and start in the same words. seeds: "seeds 1, 2, 3"; empty for the seed of the scene.
 Methods methods(const FilmedScene& scene, const Plan& plan, const RunJson& record,
-                const std::vector<std::pair<std::string, std::string>>& lines);
+                const std::vector<std::pair<std::string, std::string>>& lines, const std::string& seeds = "");
 
 }  // namespace grainreel

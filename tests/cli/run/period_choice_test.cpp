@@ -166,6 +166,21 @@ TEST_F(DoubledBed, IsShownEverySecondPeriod) {
     EXPECT_EQ(text_of(here / "one/measures.csv"), text_of(here / "found/measures.csv"));
 }
 
+// A run that goes on tells when the bed began to repeat itself otherwise, not when it went on.
+TEST_F(DoubledBed, IsToldFromTheSameTimeByARunThatGoesOn) {
+    const auto onset = [&](const char* run) {
+        const std::string text = text_of(here / run / "run.json");
+        const auto at = text.find(" on the bed repeats itself");
+        return at == std::string::npos ? "none" : text.substr(text.rfind('"', at), at - text.rfind('"', at));
+    };
+    ASSERT_EQ(grainreel({"movie", "bed.toml", "--no-film", "--out", "whole"}).status, 0);
+    ASSERT_EQ(grainreel({"movie", "bed.toml", "--no-film", "--out", "parts", "--duration", "0.7 s"}).status,
+              0);
+    ASSERT_EQ(grainreel({"resume", "parts", "--until", "0.8 s", "--no-film"}).status, 0);
+    EXPECT_THAT(onset("whole"), HasSubstr("from 0."));
+    EXPECT_EQ(onset("parts"), onset("whole"));
+}
+
 TEST_F(DoubledBed, IsDrawnAgainEverySecondPeriod) {
     ASSERT_EQ(grainreel({"movie", "bed.toml", "--no-film", "--out", "run"}).status, 0);
     const Ended ended = grainreel({"render", "run", "--frames", "--out", "again"});

@@ -236,6 +236,10 @@ TEST_F(StudyVerb, MeasuresNoColumnThatStaysEmpty) {
     const Ended empty = said(replaced(lacey, "set = [", "set = ['" + one + "', "));
     EXPECT_EQ(empty.status, 2);
     EXPECT_THAT(empty.err, tells({"study.toml:9:1", "'lacey'", "two species", "another column"}));
+    // 2 of 42 grains of which a sample has 21.
+    const Ended rare = said(replaced(lacey, "set = [", "set = ['species.big.count=2', "));
+    EXPECT_EQ(rare.status, 2);
+    EXPECT_THAT(rare.err, tells({"study.toml:9:1", "'lacey'", "2 of 42", "height_difference"}));
     const std::string variants = "[[variant]]\nname = \"one\"\nset = ['" + one +
                                  "']\n[[variant]]\nname = \"two\"\nset = []\n[[measure]]";
     EXPECT_EQ(said(replaced(lacey, "[[measure]]", variants)).status, 0);

@@ -166,9 +166,10 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
         accept(scene, plan);
         reach.add_setting(scene);
         // Members read a copy of the scene, and relative paths would count from the folder of the copy.
-        if (scene.start.method == Start::Method::file)
-            member.sets.push_back("start.file=" +
-                                  quoted(std::filesystem::absolute(scene.start.file).string()));
+        if (scene.start.method == Start::Method::file) {
+            member.start_file = std::filesystem::absolute(scene.start.file).string();
+            member.sets.push_back("start.file=" + grainreel::quoted(member.start_file));
+        }
         member.files = files_of(scene);
         const Seeds& seeds = study.seeds_of(member.at);
         for (std::size_t s = 0; s < study.seed_count(member.at); ++s) {

@@ -35,6 +35,7 @@ struct Member {
     Assignments sets;     // keys to set: for the whole study, then by the values, the start file, the seed
     Assignments framing;  // the keys that let the pictures of all members show the same part
     std::vector<MemberFile> files;
+    std::string start_file;  // absolute path of the file that it starts from; empty for none
     // Begin of its folder's name: a short description, and a hash of its complete scene without what does not
     // change its numbers (film, title, name, threads) and without its duration. When a study was changed,
     // this hash tells which members are still the same, and which may go on from a shorter run.

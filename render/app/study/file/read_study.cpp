@@ -82,6 +82,12 @@ std::string usual_label(const MeasureColumn& column, const Reduction& how, const
     }
 }
 
+bool cannot_be_negative(const FilmedScene& scene, const MeasureColumn& column, Reduction::Kind kind) {
+    using Kind = Reduction::Kind;
+    if (kind == Kind::crossing || kind == Kind::first_passage || kind == Kind::deviation) return true;
+    return kind != Kind::slope && axis_of_column(scene, column.name).from_zero;
+}
+
 // scene: that of the variant that runs longest. All members have its species and so its columns.
 void read_measure(Document& document, const FilmedScene& scene, const std::string& table, Study& study) {
     const std::vector<MeasureColumn> columns = measure_columns(scene);
@@ -104,6 +110,8 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
         measure.average = SeedAverage::median;
     }
     measure.unit = unit_of(*column, measure.reduction.kind);
+    measure.column_unit = unit_of(*column, Reduction::Kind::end);
+    measure.from_zero = cannot_be_negative(scene, *column, measure.reduction.kind);
     measure.place = document.place(table + ".column");
     for (const StudyMeasure& other : study.measures)
         if (other.name == measure.name)
@@ -219,9 +227,10 @@ void read_look(Document& document, const Study& study, const std::string& table,
     read_x_per(document, x, table + ".x_per", chart);
     if (document.has(table + ".x_range") && !x.numeric)
         document.fail(table + ".x_range", "is of numbers, but x has words; leave it out");
+    const std::string x_unit = unit_of_x(study, chart).unit;
     chart.x_range =
-        read_axis_range(document, table + ".x_range", chart.x_per_words.empty() ? x.unit : "", chart.log_x);
-    chart.y_range = read_axis_range(document, table + ".y_range", study.measures[chart.y].unit, chart.log_y);
+        read_axis_range(document, table + ".x_range", chart.x_per_words.empty() ? x_unit : "", chart.log_x);
+    chart.y_range = read_axis_range(document, table + ".y_range", unit_of_y(study, chart).unit, chart.log_y);
     chart.series = document.name_list(table + ".series");
     if (!chart.series.empty()) chart.series_place = document.place(table + ".series");
     chart.font = document.text(table + ".font").value_or(chart.font);

@@ -20,6 +20,7 @@
 #include "engine/run/driver/pace.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "render/app/study/members/child.hpp"
+#include "render/app/study/members/study_copy.hpp"
 
 namespace grainreel {
 namespace {
@@ -276,8 +277,7 @@ void make_study_folder(const Study& study, const std::vector<Member>& members, c
     if (failure)
         throw UserError(fmt::format("{}: cannot be made ({}); give another --out", folder.path.string(),
                                     failure.message()));
-    replace_file(folder.path / "study.toml", study.text);
-    replace_file(scene, study.scene_text);
+    write_study_copy(study, members, folder);
     keep_files(members, folder);
 }
 

@@ -11,6 +11,8 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
+#include "render/app/study/results/axes.hpp"
+#include "render/app/study/results/captions.hpp"
 #include "render/app/study/results/results.hpp"
 
 namespace grainreel {
@@ -117,18 +119,19 @@ Aside aside_of(const StudyChart& chart, const std::vector<ChartSeries>& series) 
     return aside;
 }
 
-// Plots a series: its line and points, and over them the error bars of points that have them.
+// Plots a series: its line (none between words along x) and points, and over them the error bars of points
+// that have them.
 std::string plot_series(const std::string& table, const ChartSeries& series, std::size_t number,
-                        const Look& look, const Aside& aside) {
+                        const Look& look, const Aside& aside, bool joined) {
     const std::string style = fmt::format("lc rgb '{}' lw {}", colours[number % colours.size()], look.pen);
     const int mark = marks[number % marks.size()];
     const std::string title =
         series.name.empty() ? "notitle" : "title " + gnuplot_lines(series.name, look.lines.key);
     const std::string x = fmt::format("(column(1)=={} ? {} : NaN)", number, aside.of("column(2)", number));
     return fmt::format(
-        "{0} using {1}:3 with linespoints pt {2} ps 0.9 {3} {4}, \\\n"
+        "{0} using {1}:3 with {5} pt {2} ps 0.9 {3} {4}, \\\n"
         "    {0} using {1}:3:4:5 with yerrorbars pt {2} ps 0.9 {3} notitle",
-        table, x, mark, style, title);
+        table, x, mark, style, title, joined ? "linespoints" : "points");
 }
 
 bool has_open_points(const std::vector<ChartSeries>& series) {
@@ -158,13 +161,14 @@ std::string plot_seeds(const std::string& table, std::size_t number, const Look&
         number, aside.of("column(2)", number), colours[number % colours.size()], 0.5 * look.pen);
 }
 
-std::string plots_of(const StudyChart& chart, const std::vector<ChartSeries>& series, bool has_reference,
-                     const Look& look) {
+std::string plots_of(const Study& study, const StudyChart& chart, const std::vector<ChartSeries>& series,
+                     bool has_reference, const Look& look) {
+    const bool joined = study.variations[chart.x].numeric;
     const std::string stem = chart_stem(chart), table = gnuplot_text(stem + ".csv");
     const Aside aside = aside_of(chart, series);
     std::string plots;
     for (std::size_t s = 0; s < series.size(); ++s)
-        plots += (s > 0 ? ", \\\n    " : "") + plot_series(table, series[s], s, look, aside);
+        plots += (s > 0 ? ", \\\n    " : "") + plot_series(table, series[s], s, look, aside, joined);
     for (std::size_t s = 0; s < series.size() && has_open_points(series); ++s)
         plots += ", \\\n    " + plot_open(table, s, look, aside);
     if (has_open_points(series))
@@ -172,6 +176,10 @@ std::string plots_of(const StudyChart& chart, const std::vector<ChartSeries>& se
                              gnuplot_lines("not in all seeds (\u2191 more)", look.lines.key));
     for (std::size_t s = 0; s < series.size() && has_seeds(series); ++s)
         plots += ", \\\n    " + plot_seeds(gnuplot_text(stem + ".seeds.csv"), s, look, aside);
+    if (has_seeds(series))
+        plots +=
+            fmt::format(", \\\n    NaN with points pt 6 ps 0.5 lc rgb 'black' lw {} title 'single seeds'",
+                        0.5 * look.pen);
     if (has_reference)
         plots += fmt::format(
             ", \\\n    {0} using 1:2:3 with yerrorbars pt 6 ps 1.1 lw 1.5 lc rgb 'black' title {1}",
@@ -196,11 +204,11 @@ std::string axes_and_key(const Study& study, const StudyChart& chart, const std:
     text += fmt::format("set offsets graph {0}, graph {0}, graph {1}, graph 0.05\n", open ? 0.1 : 0.03,
                         open ? 0.12 : 0.05);
     if (!axis.numeric) text += word_ticks(axis, look.lines.across);
-    if (chart.log_x) text += "set logscale x\n";
-    if (chart.log_y) text += "set logscale y\n";
+    text += axis_marks(study, chart, series) + search_marks(study, chart);
     if (chart.x_range) text += fmt::format("set xrange [{}:{}]\n", (*chart.x_range)[0], (*chart.x_range)[1]);
     const bool is_share = study.measures[chart.y].average == SeedAverage::share;
     if (is_share && !chart.y_range) text += "set yrange [0:1]\n";
+    if (!is_share && !chart.y_range) text += range_of_one_height(study.measures[chart.y], series);
     if (chart.y_range) text += fmt::format("set yrange [{}:{}]\n", (*chart.y_range)[0], (*chart.y_range)[1]);
     return text;
 }
@@ -236,8 +244,9 @@ std::string seed_table(const std::vector<ChartSeries>& series) {
     return text;
 }
 
-std::string chart_table(const std::vector<ChartSeries>& series) {
-    std::string text = "series,x,mean,low,high,values,members,name,of_some,bound\n";
+std::string chart_table(const std::vector<ChartSeries>& series, SeedAverage average) {
+    std::string text =
+        fmt::format("series,x,{},low,high,values,members,name,of_some,bound\n", name_of(average));
     for (std::size_t s = 0; s < series.size(); ++s)
         for (const ChartPoint& point : series[s].points)
             text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s, point.x, gnuplot_number(point.y.value),
@@ -262,7 +271,7 @@ std::string chart_commands(const Study& study, const StudyChart& chart,
         "    else {{ set terminal pngcairo noenhanced size 1200,840 font '{0},{2:.4g}' }}\n"
         "    set output {3}.'.'.form\n    plot {4}\n}}\n",
         chart.font, 14 * larger, 18 * larger, gnuplot_text(stem),
-        plots_of(chart, series, has_reference, look));
+        plots_of(study, chart, series, has_reference, look));
     return text;
 }
 
@@ -276,8 +285,10 @@ DrawnCharts draw_charts(const Study& study, const std::vector<Member>& members,
         const StudyChart& chart = study.charts[i];
         const std::vector<ChartSeries> series = chart_series(study, members, results, chart);
         const std::string stem = chart_stem(chart);
-        replace_file(folder / (stem + ".csv"), chart_table(series));
+        const SeedAverage average = study.measures[chart.y].average;
+        replace_file(folder / (stem + ".csv"), chart_table(series, average));
         if (!has_points(series)) continue;
+        replace_file(folder / (stem + ".caption.tex"), chart_caption(study, chart, series));
         if (has_seeds(series)) replace_file(folder / (stem + ".seeds.csv"), seed_table(series));
         if (!references[i].empty())
             replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
@@ -306,12 +317,13 @@ std::vector<std::filesystem::path> print_charts(const Study& study, const std::v
         const bool has_reference = !references[i].empty();
         const Paper own = with_letters(paper, chart);
         const Look look = look_on(own);
-        replace_file(folder / (stem + ".csv"), chart_table(series));
+        replace_file(folder / (stem + ".csv"), chart_table(series, study.measures[chart.y].average));
+        replace_file(folder / (stem + ".caption.tex"), chart_caption(study, chart, series));
         if (has_seeds(series)) replace_file(folder / (stem + ".seeds.csv"), seed_table(series));
         if (has_reference) replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
         for (auto& file : draw_on_paper(
                  folder, stem, paper_style() + axes_and_key(study, chart, series, has_reference, look),
-                 plots_of(chart, series, has_reference, look), own))
+                 plots_of(study, chart, series, has_reference, look), own))
             files.push_back(std::move(file));
     }
     return files;

@@ -14,9 +14,9 @@ namespace grainreel {
 std::string chart_stem(const StudyChart& chart);
 
 // The table of a chart, "series,x,mean,low,high,values,members,name,of_some,bound", with a row for each
-// point. gnuplot's commands count on this order of columns. low and high are the ends of the 95 % interval,
-// and of_some is what is drawn open.
-std::string chart_table(const std::vector<ChartSeries>& series);
+// point; the third column is called by what the seeds are joined to. gnuplot's commands count on this order
+// of columns. low and high are the ends of the 95 % interval, and of_some is what is drawn open.
+std::string chart_table(const std::vector<ChartSeries>& series, SeedAverage average = SeedAverage::mean);
 
 // The single values of points that have few of them, "series,x,value", in NAME.seeds.csv.
 bool has_seeds(const std::vector<ChartSeries>& series);

@@ -7,9 +7,11 @@
 
 #include "engine/files/run_json.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "engine/scene/keys/keys.hpp"
 #include "engine/scene/text/flat_toml.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/app/messages/version.hpp"
+#include "render/app/study/file/members.hpp"
 #include "render/app/study/results/results.hpp"
 
 namespace grainreel {
@@ -24,60 +26,237 @@ void StudyParameters::add_setting(const FilmedScene& scene, const Plan& plan) {
     });
     settings_.push_back(std::move(values));
     if (settings_.size() > 1) return;
-    RunJson record;
-    static_cast<ProgramInfo&>(record) = program_info();
-    record.finished = utc_now();  // BibTeX names the year
-    methods_ = grainreel::methods(scene, plan, record, plan_words(scene, plan).lines);
+    first_ = {scene, plan};
 }
 
-std::string StudyParameters::table() const {
+namespace {
+
+using Row = std::vector<std::string>;  // a cell for each setting
+
+// The rows of parameters.csv.
+class ParameterTable {
+  public:
+    explicit ParameterTable(std::size_t settings) : settings_(settings) {
+        text_ = "key,unit,value";
+        for (std::size_t s = 0; s < settings; ++s) text_ += fmt::format(",{}", s + 1);
+        text_ += ",meaning\n";
+    }
+    // One value for all settings.
+    void constant(const std::string& key, const std::string& value, const Key* known = nullptr) {
+        text_ += fmt::format("{},{},{}{},{}\n", csv_cell(key), csv_cell(unit_of(known)), csv_cell(value),
+                             std::string(settings_, ','), csv_cell(meaning_of(known)));
+    }
+    // A value for each setting.
+    void differing(const std::string& key, const std::string& unit, const Row& row,
+                   const Key* known = nullptr) {
+        text_ += fmt::format("{},{},", csv_cell(key), csv_cell(unit));
+        for (const std::string& value : row) text_ += "," + csv_cell(value);
+        text_ += fmt::format(",{}\n", csv_cell(meaning_of(known)));
+    }
+    void row(const std::string& key, const Row& row, const Key* known) {
+        const bool same =
+            std::all_of(row.begin(), row.end(), [&](const auto& value) { return value == row.front(); });
+        same ? constant(key, row.front(), known) : differing(key, unit_of(known), row, known);
+    }
+    const std::string& text() const { return text_; }
+
+    // Empty where a value has no unit, or has it written behind its number.
+    static std::string unit_of(const Key* key) {
+        if (key == nullptr || key->dimension == Dimension::number) return "";
+        return text_of(key->dimension).unit;
+    }
+
+  private:
+    static std::string meaning_of(const Key* key) {
+        std::string words = key == nullptr ? "" : key->about;
+        std::erase(words, '`');
+        return words;
+    }
+
+    std::size_t settings_;
+    std::string text_;
+};
+
+// The key of the scene that has this value; the ends of a range of diameters belong to the diameter.
+const Key* key_with_value(const std::string& path) {
+    const Key* key = find_key(path);
+    return key != nullptr ? key : find_key(parent_of(path));
+}
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+// What a table of an array is called: "species.big" for "species[0]", and "contact.pair[big, wall]" for
+// "contact.pair[0]".
+std::map<std::string, std::string> names_of_tables(const Values& values) {
+    std::map<std::string, std::string> names;
+    for (const auto& [key, value] : values) {
+        const std::string table = parent_of(key);
+        if (name_of(key) == "name" && table.starts_with("species["))
+            names[table] = "species." + value;
+        else if (name_of(key) == "between" && table.ends_with(']'))
+            names[table] = table.substr(0, table.rfind('[')) + value;
+    }
+    return names;
+}
+
+std::string named(const std::string& key, const std::map<std::string, std::string>& names) {
+    for (const auto& [table, name] : names)
+        if (key.starts_with(table + ".")) return name + key.substr(table.size());
+    return key;
+}
+
+// The settings by their names, what was varied, and the seeds.
+void add_what_was_varied(const Study& study, std::size_t settings, ParameterTable& table) {
+    Row names(settings), seeds(settings);
+    std::vector<Row> values(study.variations.size(), Row(settings));
+    for (std::size_t s = 0; s < settings; ++s) {
+        const Member setting = setting_of(study, s);
+        names[s] = shown_setting(study, setting);
+        seeds[s] = fmt::format("{}", fmt::join(study.seeds_of(setting.at), ", "));
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const Variation& variation = study.variations[i];
+            const Variation::Value& value = variation.values[setting.at[i]];
+            values[i][s] = variation.numeric ? csv_number(value.number) : value.words;
+        }
+    }
+    table.differing("setting", "", names);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        table.differing(study.variations[i].key, study.variations[i].unit, values[i]);
+    if (study.has_seeds()) table.row("run.seed", seeds, nullptr);
+}
+
+}  // namespace
+
+std::string StudyParameters::table(const Study& study) const {
     const ProgramInfo program = program_info();
-    std::string text = "key,value";
-    for (std::size_t s = 0; s < settings_.size(); ++s) text += fmt::format(",{}", s + 1);
-    const std::string nothing(settings_.size(), ',');
-    const auto constant = [&](const std::string& key, const std::string& value) {
-        text += fmt::format("\n{},{}{}", csv_cell(key), csv_cell(value), nothing);
-    };
-    constant("program.version", program.version);
-    constant("program.commit", program.commit);
-    constant("program.compiler", program.compiler);
+    ParameterTable table(settings_.size());
+    add_what_was_varied(study, settings_.size(), table);
+    table.constant("program.version", program.version);
+    table.constant("program.commit", program.commit);
+    table.constant("program.compiler", program.compiler);
     std::vector<std::string> keys;  // in the order of their first setting
-    std::map<std::string, std::vector<std::string>> values;
-    for (std::size_t s = 0; s < settings_.size(); ++s)
-        for (const auto& [key, value] : settings_[s]) {
-            std::vector<std::string>& row = values[key];
+    std::map<std::string, Row> values;
+    std::map<std::string, const Key*> known;
+    for (std::size_t s = 0; s < settings_.size(); ++s) {
+        const auto names = names_of_tables(settings_[s]);
+        for (const auto& [path, value] : settings_[s]) {
+            const std::string key = named(path, names);
+            Row& row = values[key];
             if (row.empty()) keys.push_back(key), row.resize(settings_.size());
             row[s] = value;
+            known.emplace(key, key_with_value(path));
         }
-    for (const std::string& key : keys) {
-        const std::vector<std::string>& row = values[key];
-        const bool same =
-            std::all_of(row.begin(), row.end(), [&](const auto& value) { return value == row[0]; });
-        if (same) {
-            constant(key, row[0]);
-            continue;
-        }
-        text += fmt::format("\n{},", csv_cell(key));
-        for (const std::string& value : row) text += "," + csv_cell(value);
     }
-    return text + "\n";
+    for (const Variation& variation : study.variations)
+        std::erase(keys, variation.key);  // those stand on top
+    for (const std::string& key : keys) table.row(key, values[key], known[key]);
+    return table.text();
 }
 
-Methods StudyParameters::methods(const Study& study) const {
+namespace {
+
+const char* words_of(Reduction::Kind kind) {
+    switch (kind) {
+        case Reduction::Kind::end:
+            return "the last value";
+        case Reduction::Kind::mean:
+            return "the mean over time";
+        case Reduction::Kind::slope:
+            return "the slope of the line of least squares against time";
+        case Reduction::Kind::crossing:
+            return "the time of the last passage through the threshold";
+        case Reduction::Kind::first_passage:
+            return "the time at which the threshold is first reached";
+        case Reduction::Kind::max:
+            return "the largest value";
+        case Reduction::Kind::min:
+            return "the smallest value";
+        case Reduction::Kind::deviation:
+            return "the standard deviation over time";
+        case Reduction::Kind::share:
+            break;
+    }
+    return "the share of runs that reach the threshold";
+}
+
+// "rise (mean over time of height_difference from 2.5 s to 6 s)"
+std::string measure_text(const StudyMeasure& measure, double duration) {
+    const Reduction& how = measure.reduction;
+    std::string text = fmt::format("{} is {} of {} from {:.6g} s to {:.6g} s", measure.title(),
+                                   words_of(how.kind), measure.column, how.from, std::min(how.to, duration));
+    if (how.has_threshold()) {
+        const std::string unit = measure.column_unit;
+        text += fmt::format(", threshold {:.6g}{}{}", how.threshold, unit.empty() ? "" : " ", unit);
+    }
+    return text;
+}
+
+std::string averages_text(const Study& study) {
+    std::string text;
+    if (!study.has_intervals()) return " Each setting was run with one seed, so there is no interval.";
+    if (study.joins_by(SeedAverage::mean))
+        text +=
+            " Values are means over the seeds; intervals are 95 % confidence intervals of the mean by "
+            "Student's t.";
+    if (study.joins_by(SeedAverage::median))
+        text +=
+            " Medians over the seeds have 95 % intervals by order statistics (from six seeds on); a passage "
+            "that "
+            "did not come up counts as later than the end of the run.";
+    if (study.joins_by(SeedAverage::share)) text += " Shares have Wilson's 95 % interval.";
+    return text;
+}
+
+std::string list_of_seeds(const Seeds& seeds) {
+    return fmt::format("seed{} {}", seeds.size() == 1 ? "" : "s", fmt::join(seeds, ", "));
+}
+
+// What was varied, a sentence for all keys; a search tells its range and method.
+std::string varied_text(const Study& study) {
+    if (study.search) {
+        const Variation& key = study.variations.front();
+        return fmt::format(
+            "The value of {} at which {} was searched between {} and {} by bisection, to within {:.6g}{}{}.",
+            key.shown, study.search->words, key.values.front().words, key.values.back().words,
+            study.search->within, study.search->written_unit.empty() ? "" : " ", study.search->written_unit);
+    }
     std::string varied;
     for (const Variation& variation : study.variations) {
         std::vector<std::string> values;
         for (const Variation::Value& value : variation.values) values.push_back(value.words);
         varied +=
-            fmt::format("{}{}: {}", varied.empty() ? "" : "; ", variation.shown, fmt::join(values, ", "));
+            fmt::format("{}{} ({})", varied.empty() ? "" : " and ", variation.shown, fmt::join(values, ", "));
     }
+    if (varied.empty()) return "";
+    return fmt::format("{} {} varied.", varied, study.variations.size() == 1 ? "was" : "were");
+}
+
+}  // namespace
+
+Methods StudyParameters::methods(const Study& study, const std::string& stiffness) const {
+    if (!first_) return {};
+    const auto& [scene, plan] = *first_;
+    RunJson record;
+    static_cast<ProgramInfo&>(record) = program_info();
+    record.finished = utc_now();  // BibTeX names the year
+    const Seeds& seeds = study.has_variants() ? study.variations.front().values.front().seeds : study.seeds;
+    const Seeds& first_seeds = seeds.empty() ? study.seeds : seeds;
+    Methods all = grainreel::methods(scene, plan, record, plan_words(scene, plan).lines,
+                                     first_seeds.empty() ? "" : list_of_seeds(first_seeds));
+    std::string text = varied_text(study);
+    if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
     if (!study.seeds.empty())
-        varied += fmt::format("{}seeds {}", varied.empty() ? "" : "; ", fmt::join(study.seeds, ", "));
-    Methods all = methods_;
-    all.paragraph = fmt::format(
-        "Varied were {}. The numbers below are those of the first setting; parameters.csv has those of "
-        "all. {}",
-        varied, methods_.paragraph);
+        text += fmt::format("{}Each setting was run with the {}.", text.empty() ? "" : " ",
+                            list_of_seeds(study.seeds));
+    if (count_settings(study) > 1)
+        text +=
+            " Where settings differ, the numbers below are those of the first one; parameters.csv has all.";
+    text += " " + all.paragraph;
+    for (const StudyMeasure& measure : study.measures)
+        text += fmt::format(" Measured: {}.", measure_text(measure, scene.run.duration));
+    if (!study.measures.empty()) text += averages_text(study);
+    if (!stiffness.empty()) text += fmt::format(" The stiffness is {}.", stiffness);
+    all.paragraph = text;
     return all;
 }
 

@@ -1,7 +1,9 @@
 // What a study ran, in full: each parameter of each setting, and the methods in a paragraph.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
@@ -16,19 +18,21 @@ class StudyParameters {
     // To be called for each setting, in their order.
     void add_setting(const FilmedScene& scene, const Plan& plan);
 
-    // The text of parameters.csv: a row for each key of the scene with all that the plan chose (laws and
-    // numbers of all pairs, step, accuracy), without [film]. `value` is what all settings have; where they
-    // differ it is empty, and the columns 1, 2, ... have the values of the settings in the order of
-    // settings.csv. The first rows name the program, its commit and its compiler.
-    std::string table() const;
+    // The text of parameters.csv, "key,unit,value,1,2,3,...,meaning". The columns 1, 2, ... are the settings
+    // in the order of settings.csv. The first rows have the settings' names, what was varied and the seeds;
+    // the next ones name the program, its commit and its compiler. Then comes a row for each key of the scene
+    // with all that the plan chose (laws and numbers of all pairs, step, accuracy), without [film]. `value`
+    // is what all settings have; where they differ it is empty.
+    std::string table(const Study& study) const;
     // A paragraph for a paper, of the first setting, and what was varied; with its sources.
-    Methods methods(const Study& study) const;
+    // stiffness: what was told of it, see share_stiffness(); may be empty.
+    Methods methods(const Study& study, const std::string& stiffness = "") const;
 
   private:
     static constexpr std::size_t kMost = 500;  // settings whose values are listed
 
     std::vector<std::vector<std::pair<std::string, std::string>>> settings_;
-    Methods methods_;  // of the first setting
+    std::optional<std::pair<FilmedScene, Plan>> first_;  // setting
 };
 
 }  // namespace grainreel

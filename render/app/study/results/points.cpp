@@ -23,7 +23,8 @@ std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Memb
     for (std::size_t m = 0; m < members.size(); ++m) {
         const std::string name = shown_setting(study, members[m], chart.x);
         const std::size_t value = members[m].at[chart.x];
-        const double x = axis.numeric ? axis.values[value].number / chart.x_per : static_cast<double>(value);
+        const double x =
+            axis.numeric ? shown_x(study, chart, axis.values[value].number) : static_cast<double>(value);
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
         std::vector<SeedValue>& there = seeds[{name, x}];
         if (results[m].status == MemberResult::Status::complete)
@@ -36,7 +37,8 @@ std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Memb
         for (auto point = seeds.lower_bound({name, -std::numeric_limits<double>::infinity()});
              point != seeds.end() && point->first.first == name; ++point)
             series.points.push_back(
-                {point->first.second, summary_of(study.measures[chart.y].average, point->second)});
+                {point->first.second, scaled(summary_of_measure(study.measures[chart.y], point->second),
+                                             unit_of_y(study, chart).factor)});
         all.push_back(std::move(series));
     }
     return all;
@@ -62,13 +64,16 @@ void check_series(const Study& study, const std::vector<Member>& members) {
 std::string x_title(const Study& study, const StudyChart& chart) {
     const Variation& axis = study.variations[chart.x];
     if (chart.x_per_words.empty())
-        return axis_title(chart.x_label.empty() ? axis.shown : chart.x_label, axis.unit);
+        return axis_title(chart.x_label.empty() ? axis.shown : chart.x_label, unit_of_x(study, chart).unit);
     return chart.x_label.empty() ? fmt::format("{} / {}", axis.shown, chart.x_per_words) : chart.x_label;
 }
 
 std::string y_title(const Study& study, const StudyChart& chart) {
     const StudyMeasure& measure = study.measures[chart.y];
-    return axis_title(chart.y_label.empty() ? measure.label : chart.y_label, measure.unit);
+    if (!chart.y_label.empty()) return axis_title(chart.y_label, unit_of_y(study, chart).unit);
+    const bool said =
+        measure.average != SeedAverage::median || measure.label.find("median") != std::string::npos;
+    return axis_title(said ? measure.label : measure.label + ", median", unit_of_y(study, chart).unit);
 }
 
 std::vector<ReferencePoint> read_reference(const std::filesystem::path& file) {

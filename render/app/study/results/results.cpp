@@ -158,6 +158,13 @@ std::string study_table(const Study& study, const std::vector<Member>& members,
     return text;
 }
 
+std::string unit_table(const Study& study) {
+    std::string text = "column,unit,meaning\n";
+    for (const StudyMeasure& measure : study.measures)
+        text += row_of({measure.name, measure.unit, measure.label});
+    return text;
+}
+
 std::string setting_table(const Study& study, const std::vector<Member>& members,
                           const std::vector<MemberResult>& results) {
     std::vector<std::string> head = key_headings(study);

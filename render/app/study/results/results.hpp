@@ -57,6 +57,10 @@ std::string csv_number(double value);
 std::string study_table(const Study& study, const std::vector<Member>& members,
                         const std::vector<MemberResult>& results);
 
+// The text of units.csv, "column,unit,meaning": a row for each measure, whose columns in study.csv and
+// settings.csv are all in this unit.
+std::string unit_table(const Study& study);
+
 // The text of settings.csv: a row for each setting. The columns are the keys with their units, the numbers of
 // members and of complete ones, and for each measure NAME (its mean, or what else it asks for), NAME_low and
 // NAME_high (its 95 % interval), NAME_came_up (how many complete members have a value) and NAME_at_least (a

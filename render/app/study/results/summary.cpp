@@ -104,6 +104,18 @@ SeedSummary summary_of(SeedAverage average, const std::vector<SeedValue>& seeds)
     return all;
 }
 
+SeedSummary summary_of_measure(const StudyMeasure& measure, const std::vector<SeedValue>& seeds) {
+    SeedSummary all = summary_of(measure.average, seeds);
+    if (measure.from_zero && all.low < 0) all.low = 0, all.cut_at_zero = true;
+    return all;
+}
+
+SeedSummary scaled(SeedSummary all, double factor) {
+    for (double* number : {&all.value, &all.low, &all.high, &all.of_some}) *number *= factor;
+    for (double& value : all.values) value *= factor;
+    return all;
+}
+
 namespace {
 
 // The complete members of a setting.
@@ -132,7 +144,7 @@ SeedSummary setting_summary(const Study& study, const std::vector<Member>& membe
     std::vector<SeedValue> seeds;
     for (const MemberResult* result : complete_in(members, results, setting))
         seeds.push_back(result->seed_value(measure));
-    return summary_of(study.measures[measure].average, seeds);
+    return summary_of_measure(study.measures[measure], seeds);
 }
 
 std::string interval_text(const MeanInterval& interval) {
@@ -165,6 +177,28 @@ std::string summary_text(const SeedSummary& all) {
         return interval_text({all.count, all.value, above});
     return fmt::format("{} ({} to {})", rounded_text(all.value), rounded_text(all.low),
                        std::isfinite(all.high) ? rounded_text(all.high) : "∞");
+}
+
+std::vector<std::string> column_texts(const std::vector<SeedSummary>& column) {
+    std::vector<std::string> texts;
+    const auto decimals_of = [](const std::string& text) {
+        const std::size_t point = text.find('.');
+        return point == std::string::npos ? std::size_t{0} : text.size() - point - 1;
+    };
+    std::size_t decimals = 0;
+    const auto is_plain = [](const SeedSummary& one) {
+        return std::isfinite(one.value) && std::isnan(one.low);
+    };
+    bool powers = false;  // some number is written with a power of ten
+    for (const SeedSummary& one : column) {
+        texts.push_back(summary_text(one));
+        if (!is_plain(one)) continue;
+        powers = powers || texts.back().find('e') != std::string::npos;
+        decimals = std::max(decimals, decimals_of(texts.back()));
+    }
+    for (std::size_t i = 0; i < column.size() && !powers; ++i)
+        if (is_plain(column[i])) texts[i] = with_minus(fmt::format("{:.{}f}", column[i].value, decimals));
+    return texts;
 }
 
 std::string came_up_text(const SeedSummary& all) {

@@ -29,6 +29,7 @@ struct SeedSummary {
     // below the true one. NaN for nothing.
     double of_some = kNone;
     bool is_bound = false;
+    bool cut_at_zero = false;    // the interval would have reached below zero
     std::vector<double> values;  // of the seeds; without those that are not finite, and none of a share
 
     bool came_up_everywhere() const { return count == members; }
@@ -39,6 +40,10 @@ struct SeedSummary {
 // that of the order statistics (Conover, Practical Nonparametric Statistics, 1999, 3.2) and needs six seeds;
 // that of a share is Wilson's (J. Am. Stat. Assoc. 22, 1927, 209).
 SeedSummary summary_of(SeedAverage average, const std::vector<SeedValue>& seeds);
+// The same for a measure: where it cannot be negative, its interval is cut off at zero.
+SeedSummary summary_of_measure(const StudyMeasure& measure, const std::vector<SeedValue>& seeds);
+// The same numbers in another unit.
+SeedSummary scaled(SeedSummary all, double factor);
 
 // members: in the order of make_members().
 
@@ -52,6 +57,8 @@ SeedSummary setting_summary(const Study& study, const std::vector<Member>& membe
 // The summary as text: "0.412 ± 0.031", "0.80 (0.38 to 0.96)", "≥ 2.6", or a dash. The half of an interval
 // has two digits, and the mean as many decimals.
 std::string summary_text(const SeedSummary& summary);
+// The same for a column of a table: numbers without an interval have as many decimals as the longest of them.
+std::vector<std::string> column_texts(const std::vector<SeedSummary>& column);
 // "came up in 1 of 5", where that is not all; else empty.
 std::string came_up_text(const SeedSummary& summary);
 
