@@ -13,9 +13,9 @@ struct BedLaw {
     const char* name;  // as in contacts.csv
     const char* set;
 };
-constexpr BedLaw laws[] = {{"with corrections", "contact.law=walton-braun"},
-                           {"spring-dashpot", "contact.law=spring-dashpot"},
-                           {"Hertz-Mindlin", "contact.law=hertz"}};
+constexpr BedLaw bed_laws[] = {{"with corrections", "contact.law=walton-braun"},
+                               {"spring-dashpot", "contact.law=spring-dashpot"},
+                               {"Hertz-Mindlin", "contact.law=hertz"}};
 
 // The largest number is the reference of its law.
 std::vector<int> numbers_of_steps(bool quick) {
@@ -29,17 +29,17 @@ int seeds(bool quick) {
 }  // namespace
 
 std::size_t bed_steps_pieces(bool quick) {
-    return std::size(laws) * numbers_of_steps(quick).size() * static_cast<std::size_t>(seeds(quick));
+    return std::size(bed_laws) * numbers_of_steps(quick).size() * static_cast<std::size_t>(seeds(quick));
 }
 
 bool run_bed_steps(bool quick, ResultTable& table, ChartWork& work) {
     for (int seed = 1; seed <= seeds(quick); ++seed) {
-        for (const BedLaw& law : laws) {
+        for (const BedLaw& law : bed_laws) {
             for (const int steps : numbers_of_steps(quick)) {
-                if (!work.next(fmt::format("bed, {}, {} steps, seed {}", law.name, steps, seed))) return false;
+                if (!work.next(fmt::format("bed, {}, {} steps, seed {}", law.name, steps, seed)))
+                    return false;
                 if (table.has({law.name, number(steps), number(seed)})) continue;
-                const BedSetting setting{law.name,
-                                         {law.set, fmt::format("run.steps_per_contact={}", steps)}};
+                const BedSetting setting{law.name, {law.set, fmt::format("run.steps_per_contact={}", steps)}};
                 try {
                     const auto r = run_bed(setting, static_cast<std::uint64_t>(seed), quick ? 0.5 : 2.0,
                                            [&] { return work.goes_on(); });
@@ -55,9 +55,9 @@ bool run_bed_steps(bool quick, ResultTable& table, ChartWork& work) {
     return true;
 }
 
-// LAMMPS' examples take 36 steps in a contact (stiffness 2e5 m g/d and 1e-4 of its time). LIGGGHTS advises 10 to
-// 30 % of the Rayleigh time, which are 26 to 9 steps for the grains of the charts with E = 5 MPa. Its contact is
-// taken to cost LAMMPS' 44 ns by the ratio of their speeds, 57 ns (docs/notes/performance.md).
+// LAMMPS' examples take 36 steps in a contact (stiffness 2e5 m g/d and 1e-4 of its time). LIGGGHTS advises 10
+// to 30 % of the Rayleigh time, which are 26 to 9 steps for the grains of the charts with E = 5 MPa. Its
+// contact is taken to cost LAMMPS' 44 ns by the ratio of their speeds, 57 ns (docs/notes/performance.md).
 const char* speed_drawing() {
     return R"(    set output 'speed.'.form
     set logscale xy
