@@ -12,8 +12,11 @@
 #include "render/app/print/run_charts.hpp"
 #include "render/app/study/file/variations.hpp"
 #include "render/app/study/page.hpp"
+#include "render/app/study/results/axes.hpp"
+#include "render/app/study/results/captions.hpp"
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/results.hpp"
+#include "render/app/study/results/warnings.hpp"
 #include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/study/study_text.hpp"
@@ -36,6 +39,19 @@ TEST(StudyChartLabels, HaveTheUnitUnlessTheyNameIt) {
     EXPECT_EQ(axis_title("time to empty", "m"), "time to empty (m)");
     EXPECT_EQ(axis_title("mass", "s"), "mass (s)");
     EXPECT_EQ(axis_title("s", "s"), "s");
+}
+
+// A label that names another unit of the same kind has the numbers in that unit.
+TEST(StudyChartLabels, MayNameAnotherUnit) {
+    const auto unit = [](const char* label, const char* own) { return shown_unit(label, own); };
+    EXPECT_EQ(unit("kinetic energy (mJ)", "J").unit, "mJ");
+    EXPECT_NEAR(unit("kinetic energy (mJ)", "J").factor, 1000, 1e-9);
+    EXPECT_NEAR(unit("height in mm", "m").factor, 1000, 1e-9);
+    EXPECT_NEAR(unit("time to empty, min", "s").factor, 1.0 / 60, 1e-12);
+    for (const auto& [label, own] : {std::pair{"kinetic energy (J)", "J"}, std::pair{"energy (s)", "J"},
+                                     std::pair{"height in bed heights", "m"}, std::pair{"angle (deg)", ""}})
+        EXPECT_EQ(unit(label, own).factor, 1) << label;
+    EXPECT_EQ(axis_title("energy (mJ)", unit("energy (mJ)", "J").unit), "energy (mJ)");
 }
 
 struct Made {
@@ -148,6 +164,67 @@ TEST(StudyIntervals, DigitsFollowTheInterval) {
     EXPECT_EQ(interval_text({5, -0.001, 0.5}), "0.00 ± 0.50");
     EXPECT_EQ(interval_text({1, -0.25, 0}), "−0.25");
     EXPECT_EQ(interval_text({0, 0, 0}), "–");
+}
+
+TEST(StudyChartPoints, AreInTheUnitOfTheirLabel) {
+    Made made(small_study);
+    StudyChart chart = made.study.charts[0];
+    chart.y = 0, chart.y_label = "energy (mJ)";
+    for (MemberResult& result : made.results) result.values[0] = 0.002;
+    const auto series = chart_series(made.study, made.members, made.results, chart);
+    EXPECT_NEAR(series[0].points[0].y.value, 2, 1e-12);
+    EXPECT_EQ(y_title(made.study, chart), "energy (mJ)");
+}
+
+// 2e-5 to 4e-4: from 2\u00b710\u207b\u2075 to 5\u00b710\u207b\u2074, and not over four decades.
+TEST(StudyChartAxes, HavePowersOfTen) {
+    Made made(small_study);
+    StudyChart chart = made.study.charts[0];
+    chart.log_y = true;
+    std::vector<ChartSeries> series{{"", {{2, {}}, {3, {}}}}};
+    series[0].points[0].y.value = 2e-5, series[0].points[1].y.value = 4e-4;
+    const std::string marks = axis_marks(made.study, chart, series);
+    EXPECT_THAT(marks, HasSubstr("set yrange [2e-05:0.0005]"));
+    EXPECT_THAT(marks, HasSubstr("'10\u207b\u2074' 0.0001 0"));
+    EXPECT_THAT(marks, HasSubstr("'5\u00b710\u207b\u2075' 5e-05 0"));
+    chart.log_y = false;
+    EXPECT_THAT(axis_marks(made.study, chart, series), HasSubstr("'4\u00b710\u207b\u2074' 0.0004"));
+    EXPECT_EQ(power_text(1e-5), "10\u207b\u2075");
+}
+
+TEST(StudyChartAxes, OfPointsOfOneHeightBeginAtZero) {
+    StudyMeasure time;
+    time.from_zero = true;
+    std::vector<ChartSeries> series{{"", {{1, {}}, {2, {}}}}};
+    for (ChartPoint& point : series[0].points) point.y.of_some = 2;
+    EXPECT_EQ(range_of_one_height(time, series), "set yrange [0:3]\n");
+    series[0].points[0].y.of_some = 1;
+    EXPECT_EQ(range_of_one_height(time, series), "");
+}
+
+TEST(StudyCaptions, SayOnlyWhatIsThere) {
+    Made made(small_study);
+    const StudyChart& chart = made.study.charts[0];
+    const auto series = chart_series(made.study, made.members, made.results, chart);
+    const std::string caption = chart_caption(made.study, chart, series);
+    EXPECT_THAT(caption, tells({"n = 2", "95 \\%", "rings", "$\\Gamma$"}));
+    EXPECT_THAT(caption, Not(HasSubstr("Open symbols")));
+    EXPECT_THAT(chart_commands(made.study, chart, series, false), HasSubstr("title 'single seeds'"));
+}
+
+TEST(StudyWarnings, AreOneWhereNumbersDiffer) {
+    Made made(small_study);
+    made.results[0].warnings = {"from 0.5 s on it repeats itself every 2 periods (0.19 diameters)"};
+    made.results[1].warnings = {"from 0.494 s on it repeats itself every 2 periods (0.2 diameters)"};
+    made.results[3].warnings = {"other"};
+    const auto all = shared_warnings(made.results);
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all[0].text,
+              "from 0.494 to 0.5 s on it repeats itself every 2 periods (0.19 to 0.2 diameters)");
+    EXPECT_EQ(members_text(made.study, made.members, all[0].members),
+              "\u0393 = 2, d of big = 5 mm, seed 1, 2");
+    EXPECT_THAT(study_page(made.study, made.members, made.results, {made.folder.path()}, {}),
+                HasSubstr("d of big = 5 mm, seed 1, 2"));
 }
 
 TEST(StudyPage, SaysInWordsWhatChartsShow) {

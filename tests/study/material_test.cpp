@@ -122,7 +122,7 @@ TEST(StudyParametersTable, TellsWhatDiffersAndWhatDoesNot) {
                                       HasSubstr("\ndrive.amplitude,m,,"), HasSubstr("\nrun.step,s,"),
                                       HasSubstr("\nrun.accuracy,,"), HasSubstr("\nspecies.big.diameter,m,")));
     const Methods methods = parameters.methods(study);
-    EXPECT_THAT(methods.paragraph, tells({"Γ: 2.5, 4", "first setting", "Walton1986"}));
+    EXPECT_THAT(methods.paragraph, tells({"Γ (2.5, 4)", "first one", "Walton1986"}));
     EXPECT_THAT(methods.bibtex, testing::ContainsRegex("grainreel.*\n.*\n.*\n.*\n  year = .20[0-9][0-9]"));
     EXPECT_THAT(methods.bibtex, HasSubstr("@article{Walton1986"));
 }

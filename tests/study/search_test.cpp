@@ -74,6 +74,39 @@ TEST(StudySearch, StopsWhereTheMeasureTurns) {
     EXPECT_THAT(search_text(step, "k", "", true), tells({"stopped", "rises and falls"}));
 }
 
+// With one seed a value out of order is scatter: the search goes on, and says so.
+TEST(StudySearch, OfOneSeedGoesOnWhereValuesScatter) {
+    const auto scattered = [](double x) { return of_one_seed(x == 6 ? 9 : x); };
+    const SearchStep step =
+        next_step({{0, scattered(0)}, {4, scattered(4)}, {6, scattered(6)}, {8, scattered(8)}}, 4.5, 2);
+    EXPECT_EQ(step.verdict, Verdict::reached);
+    EXPECT_EQ(step.low, 4);
+    EXPECT_EQ(step.high, 6);
+    EXPECT_THAT(search_text(step, "k", "", false), tells({"between 4 and 6", "more seeds"}));
+}
+
+// What a wider `within` answered is answered by a narrower one too.
+TEST(StudySearch, TellsTheBracketWhereTheMeasureTurns) {
+    const auto measure = [](double x) { return with_interval(x < 5 ? 2 * x : 20 - 2 * x, 0.01); };
+    const std::vector<TriedValue> tried{{0, measure(0)}, {4, measure(4)}, {8, measure(8)}};
+    EXPECT_EQ(next_step(tried, 3, 4).verdict, Verdict::reached);
+    const SearchStep narrower = next_step(tried, 3, 1);
+    EXPECT_EQ(narrower.verdict, Verdict::not_monotonic);
+    EXPECT_THAT(search_text(narrower, "k", "", true), tells({"between 0 and 8", "between 0 and 4"}));
+}
+
+// An end of the range is no bound of the value.
+TEST(StudySearch, IsOpenWhereTheIntervalLeavesTheRange) {
+    const SearchStep step = next_step({{0, with_interval(0, 1)}, {8, with_interval(8, 1)}}, 7.5, 0.1);
+    EXPECT_EQ(step.verdict, Verdict::seeds_too_few);
+    EXPECT_TRUE(step.open_high);
+    EXPECT_FALSE(step.open_low);
+    EXPECT_THAT(search_text(step, "k", "mm", true), tells({"at least 6.5 mm", "wider range"}));
+    StudySearch search;
+    EXPECT_THAT(search_json(search, step, "k", "mm", StudyMeasure()),
+                testing::AllOf(testing::HasSubstr("\"high\": null"), testing::HasSubstr("\"low\": 6.5")));
+}
+
 TEST(StudySearch, SaysThatTheValueIsOutside) {
     EXPECT_EQ(searched([](double x) { return of_one_seed(x); }, 9, 0.1).verdict, Verdict::not_in_range);
     EXPECT_EQ(searched([](double x) { return of_one_seed(x); }, -1, 0.1).verdict, Verdict::not_in_range);

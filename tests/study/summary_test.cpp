@@ -94,6 +94,24 @@ TEST(SeedSummaries, AShareHasWilsonsInterval) {
     EXPECT_TRUE(half.values.empty()) << "no ring at 0 and at 1";
 }
 
+// 1.1 \u00b1 t_1 (0.9) reaches below zero, which a time cannot.
+TEST(SeedSummaries, OfTimesEndAtZero) {
+    StudyMeasure time;
+    const std::vector<SeedValue> seeds{{0.2, nan}, {2, nan}};
+    EXPECT_LT(summary_of_measure(time, seeds).low, 0);
+    time.from_zero = true;
+    const SeedSummary all = summary_of_measure(time, seeds);
+    EXPECT_EQ(all.low, 0);
+    EXPECT_TRUE(all.cut_at_zero);
+    EXPECT_THAT(summary_text(all), testing::StartsWith("1.1 (0 to "));
+}
+
+TEST(SeedSummaries, HaveTheSameDigitsInAColumn) {
+    std::vector<SeedSummary> column(3);
+    column[0].value = -0.34, column[1].value = -0.312, column[2].value = 2;
+    EXPECT_THAT(column_texts(column), testing::ElementsAre("\u22120.340", "\u22120.312", "2.000"));
+}
+
 TEST(SeedSummaries, AShareIsOneWhereTheThresholdIsReached) {
     Reduction how;
     how.kind = Reduction::Kind::share, how.threshold = 2;
@@ -160,6 +178,7 @@ TEST(SeedSummaries, AreToldInTablesChartAndPage) {
     EXPECT_THAT(page, tells({"≥ 2.6", "came up", "1 of 5"}));
     EXPECT_THAT(page, HasSubstr("Open symbols"));
     EXPECT_THAT(page, Not(HasSubstr("1 of 5</td>"))) << "all five are complete";
+    EXPECT_THAT(unit_table(made.study), HasSubstr("\nrise,s,"));
 }
 
 TEST(SeedSummaries, AStudyInWhichNothingCameUpSaysSo) {

@@ -13,6 +13,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
+#include "render/page/embed.hpp"
 
 namespace grainreel {
 
@@ -144,6 +145,14 @@ void say_size_in_mm(const std::filesystem::path& svg, double width_mm) {
     for (std::size_t at = text.find(named); at != std::string::npos; at = text.find(named, at + any.size()))
         text.replace(at, named.size(), any);
     replace_file(svg, text);
+}
+
+void say_title(const std::filesystem::path& svg, const std::string& title) {
+    static const std::string theirs = "<title>Gnuplot</title>";
+    std::string bytes = bytes_of(svg);
+    const std::size_t at = bytes.find(theirs);
+    if (at == std::string::npos) return;
+    replace_file(svg, bytes.replace(at, theirs.size(), "<title>" + html_text(title) + "</title>"));
 }
 
 void say_dots(const std::filesystem::path& png, double dpi) {

@@ -42,6 +42,9 @@ std::vector<std::filesystem::path> draw_on_paper(const std::filesystem::path& fo
 // without serifs may be used. Throws RunError when the file is not one of gnuplot's.
 void say_size_in_mm(const std::filesystem::path& svg, double width_mm);
 
+// Gives gnuplot's SVG file this title in place of "Gnuplot"; browsers and readers for the blind tell it.
+void say_title(const std::filesystem::path& svg, const std::string& title);
+
 // Makes a PNG file tell printers its pixels an inch (pHYs). Throws RunError like say_size_in_mm().
 void say_dots(const std::filesystem::path& png, double dpi);
 

@@ -94,10 +94,15 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
     StudyMeasure measure;
     const std::string name = document.required_text(table + ".column");
     const MeasureColumn* column = find_column(columns, name);
-    if (column == nullptr)
-        document.fail(table + ".column",
-                      fmt::format("must be a column of measures.csv, but is \"{}\"; there are {}",
-                                  excerpt(name), column_names(columns)));
+    if (column == nullptr) {
+        std::vector<std::string> names;
+        for (const MeasureColumn& one : columns) names.push_back(one.name);
+        const auto meant = nearest_name(name, names);
+        document.fail(
+            table + ".column",
+            fmt::format("must be a column of measures.csv, but is \"{}\"; {}there are {}", excerpt(name),
+                        meant ? fmt::format("did you mean '{}'? ", *meant) : "", column_names(columns)));
+    }
     measure.column = column->name;
     const std::string how = document.required_text(table + ".reduce");
     for (const auto& [word, kind] : reduction_words)

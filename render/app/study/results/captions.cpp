@@ -92,9 +92,8 @@ std::vector<std::string> legend_sentences(SeedAverage average, const std::vector
     if (seen.rings) all.emplace_back("Small rings are the single seeds");
     if (seen.gaps)
         all.emplace_back(
-            "Where a number such as 1 of 3 stands beside an open symbol, the measure came up in so many "
-            "seeds");
-    if (seen.some) all.emplace_back("Open symbols, in brackets in the table, are means of those seeds alone");
+            "Open symbols have a number beside them, such as 1 of 3: the measure came up in so many seeds");
+    if (seen.some) all.emplace_back("Those without \u2191 are means of these seeds alone");
     if (seen.bounds)
         all.emplace_back(
             "\u2191 and \u2265 stand at a lower bound: what did not come up by the end of a run comes later");

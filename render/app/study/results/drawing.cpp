@@ -213,6 +213,12 @@ std::string axes_and_key(const Study& study, const StudyChart& chart, const std:
     return text;
 }
 
+// What the file of a chart calls itself.
+std::string title_of(const Study& study, const StudyChart& chart) {
+    if (!chart.title.empty()) return chart.title;
+    return fmt::format("{} against {}", y_title(study, chart), x_title(study, chart));
+}
+
 bool has_points(const std::vector<ChartSeries>& series) {
     return std::any_of(series.begin(), series.end(), [](const ChartSeries& s) {
         return std::any_of(s.points.begin(), s.points.end(),
@@ -293,10 +299,12 @@ DrawnCharts draw_charts(const Study& study, const std::vector<Member>& members,
         if (!references[i].empty())
             replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
         replace_file(folder / (stem + ".gp"), chart_commands(study, chart, series, !references[i].empty()));
-        if (run_gnuplot(folder, stem + ".gp"))
+        if (run_gnuplot(folder, stem + ".gp")) {
             charts.stems.push_back(stem);
-        else
+            say_title(folder / (stem + ".svg"), title_of(study, chart));
+        } else {
             charts.drawn = false;
+        }
     }
     return charts;
 }
@@ -323,8 +331,10 @@ std::vector<std::filesystem::path> print_charts(const Study& study, const std::v
         if (has_reference) replace_file(folder / (stem + ".reference.csv"), reference_table(references[i]));
         for (auto& file : draw_on_paper(
                  folder, stem, paper_style() + axes_and_key(study, chart, series, has_reference, look),
-                 plots_of(study, chart, series, has_reference, look), own))
+                 plots_of(study, chart, series, has_reference, look), own)) {
+            if (file.extension() == ".svg") say_title(file, title_of(study, chart));
             files.push_back(std::move(file));
+        }
     }
     return files;
 }
