@@ -165,8 +165,8 @@ void Import::Files::doubt_walls(const ImportRequest& request, const ForeignArchi
 // were not.
 void Import::Files::doubt_small_walls(const ImportRequest& request, const ForeignArchive& archive,
                                       std::vector<std::string>& news) const {
-    double size = 0, largest = 0;
-    for (const Species& one : scene.species) largest = std::max(largest, one.diameter.largest);
+    double size = 0;
+    const double largest = largest_grain();
     const std::size_t first = scene.meshes.size() - archive.walls().size();
     for (std::size_t m = first; m < scene.meshes.size(); ++m) {
         const MeshFacts& facts = scene.meshes[m].surface->facts();

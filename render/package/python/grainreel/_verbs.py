@@ -319,9 +319,9 @@ def _drawn_before(path: str, words: List[str]) -> Optional[Film]:
     """The film that the same call has drawn of the same files beside them before."""
     source = Path(path)
     files = [source] if source.is_file() else [each for each in source.glob("*") if each.is_file()]
-    if not files:
+    if not files or not source.name:
         return None
-    for folder in sorted(source.absolute().parent.glob(glob.escape(source.name) + "-render*")):
+    for folder in sorted(source.parent.glob(glob.escape(source.name) + "-render*")):
         try:
             record = read_record(folder / "run.json")
             made = (folder / "run.json").stat().st_mtime
