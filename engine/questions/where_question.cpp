@@ -197,7 +197,10 @@ AnswerTable empty_table(const StoredRun& run, const SeriesRequest& request) {
     for (const GrainColumn& column : grain_columns())
         if (column.name == request.mean_of || (!column.also.empty() && column.also == request.mean_of)) {
             if (column.is_species) throw UserError("--mean: species have no mean; name another quantity");
-            table.columns.push_back({"mean_" + column.name, column.dimension, "over these grains"});
+            table.columns.push_back({"mean_" + column.name, column.dimension,
+                                     column.dimension == Dimension::energy
+                                         ? fmt::format("over these grains, {}", column.about)
+                                         : "over these grains"});
             return table;
         }
     throw UserError(

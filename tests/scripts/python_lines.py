@@ -14,6 +14,7 @@ import grainreel
 run = grainreel.run("scene.toml", out="line", output__contacts=True)
 other = grainreel.run("scene.toml", out="other", drive__g_level=3)
 last = run[-1]
+foreign = grainreel.open("two.xyz")
 speed = (last.vx ** 2 + last.vy ** 2 + last.vz ** 2) ** 0.5
 """
 
@@ -72,6 +73,7 @@ last.where("z > 8 mm").sizes["atom"] == int((last.z > 0.008).sum()) > 0
 abs(last["speed"] - speed).max() < 1e-6 and last.speed.attrs["units"] == "m/s"
 abs(float(last.mass.sum()) - 2500 * 4 / 3 * numpy.pi * float((last.radius.astype(float) ** 3).sum())) < 1e-12
 [float(frame.time) for frame in run.sel(time=slice(0.05 + 1e-9, 0.15 - 1e-9))] == [float(time) for time in run.time[1:4]]
+foreign.film(size="160x120").path == foreign.film(size="160x120").path != foreign.film(size="320x240").path
 not hasattr(run, "where") and hasattr(run, "measures")
 """.strip().splitlines()
 

@@ -106,6 +106,8 @@ struct Import::Files {
                       std::vector<std::string>& news) const;
     void doubt_walls(const ImportRequest& request, const ForeignArchive& archive,
                      std::vector<std::string>& news) const;
+    void doubt_small_walls(const ImportRequest& request, const ForeignArchive& archive,
+                           std::vector<std::string>& news) const;
 
     const ImportWalls walls;
     const std::string scene_text;
@@ -156,6 +158,25 @@ void Import::Files::doubt_walls(const ImportRequest& request, const ForeignArchi
             0.001 * request.reading.walls_scale.value_or(archive.units().length)));
         return;  // walls are in one unit
     }
+    doubt_small_walls(request, archive, news);
+}
+
+// Tells of walls that are all smaller than a grain, as where their lengths were scaled and those of grains
+// were not.
+void Import::Files::doubt_small_walls(const ImportRequest& request, const ForeignArchive& archive,
+                                      std::vector<std::string>& news) const {
+    double size = 0;
+    const double largest = largest_grain();
+    const std::size_t first = scene.meshes.size() - archive.walls().size();
+    for (std::size_t m = first; m < scene.meshes.size(); ++m) {
+        const MeshFacts& facts = scene.meshes[m].surface->facts();
+        size = std::max(size, (facts.high - facts.low).maxCoeff());
+    }
+    if (archive.walls().empty() || size >= largest) return;
+    news.push_back(fmt::format(
+        "{}: its walls are {:.4g} m large, smaller than a grain ({:.4g} m); see --units, which is about "
+        "grains and walls, and --walls-scale, which is about walls alone",
+        request.from.string(), size, largest));
 }
 
 Import::Files::Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,

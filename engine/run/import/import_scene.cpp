@@ -52,11 +52,13 @@ std::string triple(const Vec3& v) {
 std::string species_text(const ForeignArchive& archive, const ImportSurvey& survey,
                          std::vector<std::string>& news) {
     std::string text;
-    bool guessed = false;
+    constexpr double kLightest = 10, kHeaviest = 30000;  // kg/m3: aerogel, and more than osmium
+    bool guessed = false, doubted = false;
     for (std::size_t s = 0; s < archive.world().species.size(); ++s) {
         const WorldSpecies& species = archive.world().species[s];
         const bool known = std::isfinite(species.density) && species.density > 0;
         guessed = guessed || !known;
+        doubted = doubted || (known && !(species.density >= kLightest && species.density <= kHeaviest));
         const ImportSurvey::Species& seen = survey.species[s];
         const double small = seen.smallest > 0 ? seen.smallest : 1e-3;
         const double large = seen.largest > 0 ? seen.largest : 1e-3;
@@ -72,6 +74,11 @@ std::string species_text(const ForeignArchive& archive, const ImportSurvey& surv
             "{}: says no density; masses and energies are left out until --density gives it (glass: "
             "{} kg/m3)",
             archive.path().string(), kGlassDensity));
+    if (doubted)
+        news.push_back(fmt::format(
+            "{}: its grains have a density below {} or above {:g} kg/m3, as where units are mixed up; "
+            "see --units and --density",
+            archive.path().string(), kLightest, kHeaviest));
     return text;
 }
 

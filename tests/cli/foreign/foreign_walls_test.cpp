@@ -72,6 +72,11 @@ TEST_F(ForeignWalls, AreNamedAndDoubtedWhereTheyAreInMm) {
                                   "both/plate_mm.stl", "--walls-scale", "1e-6"});
     ASSERT_EQ(scaled.status, 0) << scaled.err;
     EXPECT_THAT(scaled.err, testing::Not(HasSubstr("large")));
+    const Ended lost = program({"render", "both", "--at", "0", "--out", "lost.png", "--walls",
+                                "both/plate_mm.stl", "--walls-scale", "1e-9", "--density", "2.5"});
+    ASSERT_EQ(lost.status, 0) << lost.err;
+    EXPECT_THAT(lost.err, tells({"smaller than a grain", "--units", "--walls-scale"}));
+    EXPECT_THAT(lost.err, tells({"density below 10", "--density"}));
 }
 
 // Files whose numbers count frames in place of steps. Their walls move far from one to the next, which would

@@ -1,13 +1,16 @@
 """The verbs of the program as functions."""
 from __future__ import annotations
 
+import glob
 import json
 import os
 import re
+import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Union
 
+from ._data import read_record
 from ._messages import GrainreelError, tell, wrong
 from ._pictures import Picture, painter_of, question
 from ._program import Running, call, program_of
@@ -125,7 +128,8 @@ def film(run: Union[PathLike, "Run"], out: Optional[PathLike] = None, *, force: 
     has, if it has one; else it is drawn.
 
     - `start`, `end`: s, the first and the last moment. `every`: draws each such frame of the trajectory.
-    - `out`: the folder of the film, which must be new, or `force=True`; else one beside the run is chosen.
+    - `out`: the folder of the film, which must be new, or `force=True`; else one beside the run is chosen, and a film
+      there that was drawn of the same files with the same arguments is taken.
     - `replay=False`: only kept moments.
     - `progress`: see `run`. `reading`, `settings`, `set`: see `render`.
     """
@@ -138,6 +142,9 @@ def film(run: Union[PathLike, "Run"], out: Optional[PathLike] = None, *, force: 
     if own and not wanted:
         return Film(own[0])
     words = [path, *wanted, *reading_words(_reading(run, reading))]
+    drawn = None if out is not None else _drawn_before(path, [program_of(_program(run, program)), "render", *words])
+    if drawn:
+        return drawn
     folder = Path(call("render", words, _program(run, program), progress).strip())
     films = sorted(folder.glob("movie.*")) if folder.is_dir() else [folder]
     return Film(films[0] if films else folder)
@@ -306,6 +313,25 @@ def _paths(runs: object) -> List[str]:
     if not runs:
         raise GrainreelError("runs: is an empty list; give the runs")
     return [path_of(each, "runs") for each in runs]
+
+
+def _drawn_before(path: str, words: List[str]) -> Optional[Film]:
+    """The film that the same call has drawn of the same files beside them before."""
+    source = Path(path)
+    files = [source] if source.is_file() else [each for each in source.glob("*") if each.is_file()]
+    if not files or not source.name:
+        return None
+    for folder in sorted(source.parent.glob(glob.escape(source.name) + "-render*")):
+        try:
+            record = read_record(folder / "run.json")
+            made = (folder / "run.json").stat().st_mtime
+            same = shlex.split(str(record.get("command", ""))) == [*words, "--progress", "json"]
+            films = sorted(folder.glob("movie.*"))
+            if same and films and record.get("status") == "complete" and all(each.stat().st_mtime < made for each in files):
+                return Film(films[0])
+        except (GrainreelError, OSError, ValueError):
+            continue
+    return None
 
 
 def _condition(where: Optional[str]) -> Optional[str]:
