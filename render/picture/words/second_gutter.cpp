@@ -6,11 +6,8 @@
 
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
-<<<<<<< HEAD
 #include "render/scene/axis_titles.hpp"
-=======
 #include "render/scene/film_pace.hpp"
->>>>>>> c5bdaf5ab7f9a7dc4ae15d7399265a2aca74a210
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
