@@ -36,10 +36,10 @@ bool run_bed_steps(bool quick, ResultTable& table, ChartWork& work) {
     for (int seed = 1; seed <= seeds(quick); ++seed) {
         for (const BedLaw& law : laws) {
             for (const int steps : numbers_of_steps(quick)) {
-                if (!work.next(fmt::format("bed, {}, {} steps, seed {}", law.name, steps, seed))) return false;
+                if (!work.next(fmt::format("bed, {}, {} steps, seed {}", law.name, steps, seed)))
+                    return false;
                 if (table.has({law.name, number(steps), number(seed)})) continue;
-                const BedSetting setting{law.name,
-                                         {law.set, fmt::format("run.steps_per_contact={}", steps)}};
+                const BedSetting setting{law.name, {law.set, fmt::format("run.steps_per_contact={}", steps)}};
                 try {
                     const auto r = run_bed(setting, static_cast<std::uint64_t>(seed), quick ? 0.5 : 2.0,
                                            [&] { return work.goes_on(); });
@@ -55,9 +55,9 @@ bool run_bed_steps(bool quick, ResultTable& table, ChartWork& work) {
     return true;
 }
 
-// LAMMPS' examples take 36 steps in a contact (stiffness 2e5 m g/d and 1e-4 of its time). LIGGGHTS advises 10 to
-// 30 % of the Rayleigh time, which are 26 to 9 steps for the grains of the charts with E = 5 MPa. Its contact is
-// taken to cost LAMMPS' 44 ns by the ratio of their speeds, 57 ns (docs/notes/performance.md).
+// LAMMPS' examples take 36 steps in a contact (stiffness 2e5 m g/d and 1e-4 of its time). LIGGGHTS advises 10
+// to 30 % of the Rayleigh time, which are 26 to 9 steps for the grains of the charts with E = 5 MPa. Its
+// contact is taken to cost LAMMPS' 44 ns by the ratio of their speeds, 57 ns (docs/notes/performance.md).
 const char* speed_drawing() {
     return R"(    set output 'speed.'.form
     set logscale xy
