@@ -57,9 +57,9 @@ HWY_INLINE T guess_inverse_cube_root(T x) {
 // it takes little. Both steps share one division.
 template <class R>
 HWY_INLINE R cubic_root(R a, R b) {
-    constexpr int rounds = sizeof(NumberOf<R>) == sizeof(double) ? 2 : 1;
+    constexpr int rounds = sizeof(NumberOf<R>) == sizeof(double) ? 3 : 2;
     const R third = a * R(1.0 / 3.0);
-    R r = guess_inverse_cube_root(a);
+    R r = guess_inverse_cube_root(a);  // to ten digits after three rounds, for which no division is needed
     for (int k = 0; k < rounds; ++k) r *= less_product(R(4.0 / 3.0), third, r * r * r);
     const R y = a * r * r, square = y * y;
     // The first step ends at above / below.

@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Golden{"bed10k", 400, Precision::mixed, 40000},
                     Golden{"bed10k-walton-braun", 400, Precision::full, 40000},
                     Golden{"frictionless", 400, Precision::full, 40000},
-                    Golden{"wedge", 405, Precision::full, 40000, 0x248a9b590b95b3f8, 0x3538914fb2411640},
+                    Golden{"wedge", 405, Precision::full, 40000, 0x4f456ee83a2fcafc, 0xbf99374aea6909c4},
                     Golden{"intruder", 1000, Precision::full, 25000},
                     Golden{"gas", 400, Precision::full, 12000}),
     [](const auto& one) {
