@@ -31,7 +31,7 @@ void StudyParameters::add_setting(const FilmedScene& scene, const Plan& plan) {
 
 namespace {
 
-using Row = std::vector<std::string>;  // a cell for each setting
+using Cells = std::vector<std::string>;  // a cell for each setting
 
 // The rows of parameters.csv.
 class ParameterTable {
@@ -47,13 +47,13 @@ class ParameterTable {
                              std::string(settings_, ','), csv_cell(meaning_of(known)));
     }
     // A value for each setting.
-    void differing(const std::string& key, const std::string& unit, const Row& row,
+    void differing(const std::string& key, const std::string& unit, const Cells& row,
                    const Key* known = nullptr) {
         text_ += fmt::format("{},{},", csv_cell(key), csv_cell(unit));
         for (const std::string& value : row) text_ += "," + csv_cell(value);
         text_ += fmt::format(",{}\n", csv_cell(meaning_of(known)));
     }
-    void row(const std::string& key, const Row& row, const Key* known) {
+    void row(const std::string& key, const Cells& row, const Key* known) {
         const bool same =
             std::all_of(row.begin(), row.end(), [&](const auto& value) { return value == row.front(); });
         same ? constant(key, row.front(), known) : differing(key, unit_of(known), row, known);
@@ -107,8 +107,8 @@ std::string named(const std::string& key, const std::map<std::string, std::strin
 
 // The settings by their names, what was varied, and the seeds.
 void add_what_was_varied(const Study& study, std::size_t settings, ParameterTable& table) {
-    Row names(settings), seeds(settings);
-    std::vector<Row> values(study.variations.size(), Row(settings));
+    Cells names(settings), seeds(settings);
+    std::vector<Cells> values(study.variations.size(), Cells(settings));
     for (std::size_t s = 0; s < settings; ++s) {
         const Member setting = setting_of(study, s);
         names[s] = shown_setting(study, setting);
@@ -135,13 +135,13 @@ std::string StudyParameters::table(const Study& study) const {
     table.constant("program.commit", program.commit);
     table.constant("program.compiler", program.compiler);
     std::vector<std::string> keys;  // in the order of their first setting
-    std::map<std::string, Row> values;
+    std::map<std::string, Cells> values;
     std::map<std::string, const Key*> known;
     for (std::size_t s = 0; s < settings_.size(); ++s) {
         const auto names = names_of_tables(settings_[s]);
         for (const auto& [path, value] : settings_[s]) {
             const std::string key = named(path, names);
-            Row& row = values[key];
+            Cells& row = values[key];
             if (row.empty()) keys.push_back(key), row.resize(settings_.size());
             row[s] = value;
             known.emplace(key, key_with_value(path));
