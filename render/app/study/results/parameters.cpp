@@ -155,40 +155,39 @@ std::string StudyParameters::table(const Study& study) const {
 
 namespace {
 
+// What is made of a column, "{0}", with its threshold, "{1}".
 const char* words_of(Reduction::Kind kind) {
     switch (kind) {
         case Reduction::Kind::end:
-            return "the last value";
+            return "the last value of {0}";
         case Reduction::Kind::mean:
-            return "the mean over time";
+            return "the mean of {0} over time";
         case Reduction::Kind::slope:
-            return "the slope of the line of least squares against time";
+            return "the slope of the line of least squares of {0} against time";
         case Reduction::Kind::crossing:
-            return "the time of the last passage through the threshold";
+            return "the time at which {0} passes {1} for the last time";
         case Reduction::Kind::first_passage:
-            return "the time at which the threshold is first reached";
+            return "the time at which {0} first reaches {1}";
         case Reduction::Kind::max:
-            return "the largest value";
+            return "the largest value of {0}";
         case Reduction::Kind::min:
-            return "the smallest value";
+            return "the smallest value of {0}";
         case Reduction::Kind::deviation:
-            return "the standard deviation over time";
+            return "the standard deviation of {0} over time";
         case Reduction::Kind::share:
             break;
     }
-    return "the share of runs that reach the threshold";
+    return "the share of runs in which {0} reaches {1}";
 }
 
-// "rise (mean over time of height_difference from 2.5 s to 6 s)"
+// "rise: the mean of height_difference over time, from 2.5 s to 6 s"
 std::string measure_text(const StudyMeasure& measure, double duration) {
     const Reduction& how = measure.reduction;
-    std::string text = fmt::format("{} is {} of {} from {:.6g} s to {:.6g} s", measure.title(),
-                                   words_of(how.kind), measure.column, how.from, std::min(how.to, duration));
-    if (how.has_threshold()) {
-        const std::string unit = measure.column_unit;
-        text += fmt::format(", threshold {:.6g}{}{}", how.threshold, unit.empty() ? "" : " ", unit);
-    }
-    return text;
+    const std::string& unit = measure.column_unit;
+    const std::string threshold = fmt::format("{:.6g}{}{}", how.threshold, unit.empty() ? "" : " ", unit);
+    return fmt::format("{}: {}, from {:.6g} s to {:.6g} s", measure.title(),
+                       fmt::format(fmt::runtime(words_of(how.kind)), measure.column, threshold), how.from,
+                       std::min(how.to, duration));
 }
 
 std::string averages_text(const Study& study) {
@@ -252,8 +251,10 @@ Methods StudyParameters::methods(const Study& study, const std::string& stiffnes
         text +=
             " Where settings differ, the numbers below are those of the first one; parameters.csv has all.";
     text += " " + all.paragraph;
-    for (const StudyMeasure& measure : study.measures)
-        text += fmt::format(" Measured: {}.", measure_text(measure, scene.run.duration));
+    for (std::size_t i = 0; i < study.measures.size(); ++i)
+        text += fmt::format("{}{}", i == 0 ? " Measured were " : "; ",
+                            measure_text(study.measures[i], scene.run.duration));
+    if (!study.measures.empty()) text += ".";
     if (!study.measures.empty()) text += averages_text(study);
     if (!stiffness.empty()) text += fmt::format(" The stiffness is {}.", stiffness);
     all.paragraph = text;
