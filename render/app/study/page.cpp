@@ -152,7 +152,7 @@ std::vector<std::size_t> first_members(const std::vector<Member>& members) {
 // What the numbers of the table are, where it needs saying.
 std::string table_words(const Study& study, const std::vector<std::vector<SeedSummary>>& columns) {
     std::string text;
-    if (!study.has_intervals()) text += "One seed for each setting, so there is no interval. ";
+    if (!study.has_intervals()) text += "One seed for each setting, so means and medians have no interval. ";
     bool brackets = false, cut = false;
     for (const std::vector<SeedSummary>& column : columns)
         for (const SeedSummary& one : column) {

@@ -33,7 +33,8 @@ struct Seen {
 std::string points_sentence(SeedAverage average, const Seen& seen) {
     const std::string n = seen.least == seen.most ? fmt::format("{}", seen.most)
                                                   : fmt::format("{} to {}", seen.least, seen.most);
-    if (average == SeedAverage::share) return fmt::format("Points are shares of n = {} seeds", n);
+    if (average == SeedAverage::share)
+        return fmt::format("Points are shares of n = {} seed{}", n, seen.most == 1 ? "" : "s");
     if (seen.most == 1) return "Points are values of one seed, so there is no interval";
     return fmt::format("Points are {}s over n = {} seeds", name_of(average), n);
 }

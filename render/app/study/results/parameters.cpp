@@ -192,7 +192,8 @@ std::string measure_text(const StudyMeasure& measure, double duration) {
 
 std::string averages_text(const Study& study) {
     std::string text;
-    if (!study.has_intervals()) return " Each setting was run with one seed, so there is no interval.";
+    if (!study.has_intervals())
+        return " Each setting was run with one seed, so means and medians have no interval.";
     if (study.joins_by(SeedAverage::mean))
         text +=
             " Values are means over the seeds; intervals are 95 % confidence intervals of the mean by "
