@@ -268,6 +268,17 @@ TEST(PosterTime, IsTheEndOfTheLastLockedSegmentOrLateInTheFilm) {
     EXPECT_DOUBLE_EQ(poster_time(film_of({motion(1.0, 0.1), locked({}, 1, 0), motion(2.0, 0.1)}), 10), 8);
     EXPECT_DOUBLE_EQ(poster_time(film_of({motion({}, 1)}), 10), 0.8 * 10);
     EXPECT_DOUBLE_EQ(poster_time(film_of({}), 10), 0.8 * 10);
+    auto hopper = film_of({});
+    hopper.shows.outflow = true;
+    EXPECT_DOUBLE_EQ(poster_time(hopper, 10), 0.4 * 10) << "not when it is empty";
+}
+
+TEST(DurationText, HasTheUnitThatSuits) {
+    EXPECT_EQ(time_span_text(0.0025), "2.5 ms");
+    EXPECT_EQ(time_span_text(0.1), "0.1 s");
+    EXPECT_EQ(time_span_text(0.3), "0.3 s");
+    EXPECT_EQ(time_span_text(12), "12 s");
+    EXPECT_EQ(time_span_text(4e-5), "40 µs");
 }
 
 TEST(PlaybackCaption, SaysHowTimeRuns) {

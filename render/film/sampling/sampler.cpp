@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "engine/base/error.hpp"
 #include "engine/scene/drive_schedule.hpp"
@@ -173,58 +172,13 @@ std::int64_t periods_before(std::int64_t step, double periods, const Clock& cloc
     return clock.step_at(clock.cycles(step) - periods);
 }
 
-// "1/10", "1/2.5" or "0.35": the form that is easiest to read.
-std::string speed_words(double playback) {
-    const double slower = 1 / playback;
-    const double tenths = std::round(slower * 10) / 10;
-    if (std::abs(slower - tenths) < 1e-9 * slower) return fmt::format("1/{:g}", tenths);
-    if (slower >= 1000 && slower < 1e15) return fmt::format("1/{}", std::llround(slower));
-    return fmt::format("{:.3g}", playback);
-}
-
 // Rounds up to three digits: a playback that is a little too small would cause the same warning again.
 double rounded_up(double playback) {
     const double digit = std::pow(10, std::floor(std::log10(playback)) - 2);
     return std::ceil(playback / digit - 1e-9) * digit;
 }
 
-std::string pace_words(const FilmSegment& segment, const Drive& drive, double film_rate, const Wording& say) {
-    if (segment.kind == FilmSegment::Kind::motion) {
-        if (segment.playback == 1) return say(Word::real_time);
-        if (segment.playback > 1) return say(Word::time_lapse, {fmt::format("{:.4g}", segment.playback)});
-        return say(Word::slow_motion, {speed_words(segment.playback)});
-    }
-    // With pictures on the way from one locked moment to the next, there are more frames than moments.
-    const bool between = segment.between > 0;
-    const std::string phase = fmt::format("{:.3g}", segment.phase);
-    const std::string often =
-        segment.every == 1
-            ? say(between ? Word::moment_a_period : Word::frame_a_period, {phase})
-            : say(between ? Word::moment_every : Word::frame_every, {std::to_string(segment.every), phase});
-    if (drive.changes()) return often;
-    const std::string pace =
-        fmt::format("{:.4g}", film_rate * segment.every / ((segment.between + 1) * drive.frequency));
-    return fmt::format("{} ({})", often, say(Word::plays, {pace}));
-}
-
-// Words for what each picture shows when it is not one moment.
-std::string span_words(const FilmSegment& segment, const Wording& say) {
-    if (segment.average == 1) return ", " + say(Word::mean_of_a_period);
-    if (segment.average > 1) return ", " + say(Word::mean_of_periods, {std::to_string(segment.average)});
-    if (segment.exposure > 0) return ", " + say(Word::exposed, {fmt::format("{:.3g} s", segment.exposure)});
-    return "";
-}
-
 }  // namespace
-
-std::vector<FilmSegment> segments_of(const Film& film) {
-    return film.segments.empty() ? std::vector<FilmSegment>(1) : film.segments;
-}
-
-std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate,
-                             const Wording& say) {
-    return pace_words(segment, drive, film_rate, say) + span_words(segment, say);
-}
 
 FilmSegment played(FilmSegment segment, double film_rate, const Clock& clock) {
     const double slowest = film_rate * clock.step;
@@ -281,12 +235,6 @@ std::vector<Due> film_schedule(const FilmedScene& scene, const Clock& clock, std
     return shots;
 }
 
-FilmSegment spanning(FilmSegment segment, int periods) {
-    segment.every = std::lcm(segment.every, periods);
-    segment.average = (segment.average + periods - 1) / periods * periods;
-    return segment;
-}
-
 std::vector<std::int64_t> exposed_steps(const Due& shot, const FilmSegment& segment, const Clock& clock,
                                         int periods) {
     std::vector<std::int64_t> steps;
@@ -332,11 +280,12 @@ std::optional<Way> way_between(const Due& shot, const FilmSegment& segment, cons
 }
 
 double poster_time(const Film& film, double duration) {
+    constexpr double late = 0.8, while_it_flows = 0.4;  // of the film; late in it a hopper is empty
     const std::vector<FilmSegment> segments = segments_of(film);
     const std::vector<double> ends = segment_ends(segments, duration);
     for (std::size_t i = segments.size(); i-- > 0;)
         if (segments[i].kind == FilmSegment::Kind::locked) return ends[i];
-    return 0.8 * ends.back();
+    return (film.shows.outflow ? while_it_flows : late) * ends.back();
 }
 
 double apparent_frequency(double frequency, double frames) {

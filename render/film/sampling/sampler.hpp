@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
+#include "render/scene/film_pace.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -16,14 +17,6 @@ struct Due {
     std::int64_t step = 0;
     int segment = 0;
 };
-
-// The segments of a film; one with the defaults if the scene has none.
-std::vector<FilmSegment> segments_of(const Film& film);
-
-// What a frame's caption says about time: "real time", "slow motion, 1/10 speed" or "1 frame a period at
-// phase 0.25 (plays 1.5×)". UTF-8.
-std::string playback_caption(const FilmSegment& segment, const Drive& drive, double film_rate,
-                             const Wording& say = {});
 
 // The segment as it is played: if it asks for frames that lie closer than the steps, it gets one frame a
 // step.
@@ -54,10 +47,6 @@ std::vector<SegmentCount> count_film(const FilmedScene& scene, const Clock& cloc
 // shots (check_schedule).
 std::vector<Due> film_schedule(const FilmedScene& scene, const Clock& clock, std::int64_t steps);
 
-// The segment as it is shown while the bed repeats itself after `periods` periods of the drive. A whole
-// multiple of `periods` lies between its locked frames, and its means span a whole multiple.
-FilmSegment spanning(FilmSegment segment, int periods);
-
 // The earlier steps over which the picture at `shot` is exposed, rising; its own step is not among them. They
 // may lie before the run. In motion they lie evenly over the exposure. In locked segments they lie whole
 // periods apart, or whole multiples of `periods` where the bed repeats itself after that many. Empty without
@@ -87,7 +76,7 @@ std::int64_t steps_ahead(const Due& shot, const FilmSegment& segment, const Cloc
 
 // Time of the frame that stands for the whole film, in s of simulated time from the film's start. It is the
 // end of the last locked segment, since the result shows there at a known phase; without such a segment it is
-// 0.8 of the film.
+// 0.8 of the film, or 0.4 where grains flow out.
 double poster_time(const Film& film, double duration);
 
 // With fewer frames in a period the eye cannot follow the motion of the drive.

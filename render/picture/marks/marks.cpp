@@ -13,6 +13,7 @@
 #include "render/picture/grains/shown_grains.hpp"
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/scene/film_pace.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/shown_values.hpp"
 
@@ -219,6 +220,12 @@ std::string quantity_text(double value, Dimension dimension) {
     return fmt::format("{:.3g}\u00a0{}", value / unit_size(unit, dimension), unit);
 }
 
+// The text with spaces at which no line breaks.
+std::string unbroken(std::string text) {
+    for (std::size_t at = 0; (at = text.find(' ', at)) != std::string::npos;) text.replace(at, 1, "\u00a0");
+    return text;
+}
+
 // Writes entries below each other. An entry is a sample of a mark with its words beside it.
 class MarksLegend {
   public:
@@ -330,7 +337,7 @@ TextSize marks_block(const Writer& writer, const FilmedScene& scene, double scal
                      1.7 * legend.pen(), say(Word::force_on_wall));
     if (look.trails.wanted())
         legend.line(palette.accent, 1.5 * legend.pen(),
-                    say(Word::paths, {quantity_text(look.trails.duration, Dimension::time)}));
+                    say(Word::paths, {unbroken(time_span_text(look.trails.duration))}));
     if (look.force_chains)
         legend.line(palette.force, widest_line(scene.film.height),
                     say(Word::contact_force, {quantity_text(widest_force(scene), Dimension::force)}));

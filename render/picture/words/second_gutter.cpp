@@ -6,6 +6,7 @@
 
 #include "render/picture/words/blocks.hpp"
 #include "render/picture/words/captions.hpp"
+#include "render/scene/film_pace.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -18,6 +19,7 @@ constexpr double least_letters = 11;      // width of a plot in a row, in height
 constexpr double most_plot_width = 0.24;  // of the picture's width
 constexpr double plot_width = 0.2;        // in a gutter at the side, as a share of the picture's width
 constexpr double note_width = 0.22;       // in a row, as a share of the gutter's width
+constexpr int most_pace_lines = 6;        // of the caption of time
 constexpr double caption_letters = 11;    // in a row, the caption's width in heights of minor letters
 
 Rectangle whole(double x, double y, double width, double height) {
@@ -69,6 +71,14 @@ class Planner {
             widest = std::max(widest, measure_text(plot.label, measure_.main()).width + 1);
         return widest;
     }
+    // Lines of the caption of time: `usual`, or as many as the longest one needs.
+    int pace_lines(double wrap, int usual) const {
+        double longest = 0;
+        for (const std::string& caption : paces_)
+            longest =
+                std::max(longest, measure_text(caption, measure_.minor(), wrap, most_pace_lines).height);
+        return std::max(usual, static_cast<int>(std::lround(longest / line_)));
+    }
     double note_height(double wrap) const {
         const std::string note = longest_note(scene_);
         return note.empty() ? 0 : note_block(measure_, note, 0, 0, wrap, note_lines).height + type_.gap;
@@ -98,6 +108,7 @@ class Planner {
     const WordKinds kinds_ = scene_.film.word_kinds;
     const double width_, height_, x_, inner_;
     const double line_;  // pixels: height of a line of minor letters
+    const std::vector<std::string> paces_ = playback_captions(scene_.film, scene_.drive);
     const TextSize clock_;
     TextSize dial_, drive_, arrows_;
     NumbersPlan plan_;
@@ -121,7 +132,7 @@ NumbersPlan Planner::column() {
     plan_.caption = {x_, y};
     plan_.caption_wrap = plan_.note_wrap = inner_;
     const double note = note_height(inner_);
-    const int most_lines = count() > 0 ? 2 : 4;  // plots need the room more
+    const int most_lines = pace_lines(inner_, count() > 0 ? 2 : 4);  // plots need the room more
     if (kinds_.playback)
         plan_.caption_lines =
             std::clamp(static_cast<int>((height_ - type_.margin - y - note) / line_), 1, most_lines);
@@ -175,16 +186,16 @@ NumbersPlan Planner::rows() {
         plan_.clock_part = part(0, 0, middle, y);
         plan_.caption = {x_ + beside, top + 0.3 * type_.minor};
         plan_.caption_wrap = inner_ - beside;
-        plan_.caption_lines = 3;
-        y = std::max(y, plan_.caption.y + 3 * line_) + 0.5 * type_.gap;
+        plan_.caption_lines = pace_lines(inner_ - beside, 3);
+        y = std::max(y, plan_.caption.y + plan_.caption_lines * line_) + 0.5 * type_.gap;
         plan_.caption_part = part(std::floor(middle), plan_.caption.y, width_, y);
     } else {
-        // The caption always has two lines, whatever it says, so that nothing moves.
+        // The caption has the lines of the longest one, whatever it says, so that nothing moves.
         plan_.clock_part = part(0, 0, width_, y);
         plan_.caption = {x_, y};
         plan_.caption_wrap = inner_;
-        plan_.caption_lines = 2;
-        y += 2 * line_ + type_.gap;
+        plan_.caption_lines = pace_lines(inner_, 2);
+        y += plan_.caption_lines * line_ + type_.gap;
         plan_.caption_part = part(0, plan_.caption.y, width_, y);
     }
     plan_.note = {x_, y};
@@ -227,7 +238,7 @@ NumbersPlan Planner::row(bool plots_below) {
     plan_.clock = next(first);
     plan_.caption = {plan_.clock.x, top + (clock_.height > 0 ? clock_.height + 0.3 * type_.gap : 0)};
     plan_.caption_wrap = std::max(1.0, first);
-    plan_.caption_lines = kinds_.playback ? 3 : 0;
+    plan_.caption_lines = kinds_.playback ? pace_lines(plan_.caption_wrap, 3) : 0;
     const double end = plan_.caption.y + plan_.caption_lines * line_, right = x - 0.5 * gap;
     plan_.clock_part = part(0, 0, right, plan_.caption.y);
     plan_.caption_part = part(0, plan_.caption.y, right, end);
