@@ -143,6 +143,42 @@ TEST(WallColours, ThinTrianglesShareTheirWear) {
     EXPECT_LT(colours[10][1], 255 * scale.at(15).green - 20);
 }
 
+// A thin triangle's colour goes from corner to corner, and neighbours meet in one colour: along a line over
+// the strip no pixel differs much from the next.
+TEST(WallColours, ThinTrianglesBlendIntoEachOther) {
+    Plate plate;
+    TriangleMesh strip;
+    constexpr int kAlong = 10;
+    for (int k = 0; k <= kAlong; ++k)
+        for (const double x : {-0.05, 0.05}) strip.vertices.emplace_back(x, 0.01 * k - 0.05, 0);
+    for (int k = 0; k < kAlong; ++k) {
+        strip.triangles.push_back({2 * k, 2 * k + 1, 2 * k + 2});
+        strip.triangles.push_back({2 * k + 1, 2 * k + 3, 2 * k + 2});
+    }
+    MeshFacts facts;
+    mend(strip, facts);
+    plate.scene.meshes[0].surface.of = std::make_shared<const Surface>(strip, facts, "strip");
+    std::vector<double> pressure;
+    for (int t = 0; t < 2 * kAlong; ++t) pressure.push_back(t < kAlong ? 12 : 900);
+    const Picture picture = Renderer(plate.scene, 1).draw(plate.frame(pressure, pressure), "");
+    const View view = view_of(plate.scene);
+    const Pixel from = view.project({0, -0.045, 0}), to = view.project({0, 0.045, 0});
+    int largest = 0, all = 0;
+    const auto green = [&](double share) {
+        const Pixel at = from + share * (to - from);
+        return int{
+            picture.pixel(view.port.x + static_cast<int>(at.x()), view.port.y + static_cast<int>(at.y()))[1]};
+    };
+    const int steps = static_cast<int>((to - from).norm());
+    ASSERT_GT(steps, 80);
+    for (int k = 0; k < steps; ++k) {
+        const int step = std::abs(green((k + 1.0) / steps) - green(1.0 * k / steps));
+        largest = std::max(largest, step), all += step;
+    }
+    EXPECT_GT(all, 60);
+    EXPECT_LE(largest, 12);
+}
+
 TEST(WallColours, WearIsAnotherQuantityAndNothingFlickers) {
     Plate plate;
     plate.scene.film.look.walls.colour = FilmWalls::Colour::wear;

@@ -77,6 +77,18 @@ HWY_INLINE Pixels colour_of(const ScreenTriangle& t, F shade) {
                   hn::Or(hn::ShiftLeft<16>(byte(2)), hn::Set(d, 0xff000000u)));
 }
 
+HWY_INLINE Pixels blend_of(const ScreenTriangle& t, F shade, F px, float py) {
+    const Bytes d;
+    const F light = multiply_add(shade, F(1 - kDarkColour), F(kDarkColour));
+    const auto byte = [&](int c) {
+        const F own = between(along(t.own[c], t, px, py), t.own[c].low, t.own[c].high);
+        const F value = multiply_add(own, light, F(0.5f));
+        return hn::BitCast(d, hn::ConvertTo(hn::RebindToSigned<Floats>(), value.value));
+    };
+    return hn::Or(hn::Or(byte(0), hn::ShiftLeft<8>(byte(1))),
+                  hn::Or(hn::ShiftLeft<16>(byte(2)), hn::Set(d, 0xff000000u)));
+}
+
 HWY_INLINE void keep_pixels(Mask which, Pixels pixels, std::uint32_t* at) {
     const Bytes d;
     hn::StoreU(hn::IfThenElse(hn::RebindMask(d, which.bits), pixels, hn::LoadU(d, at)), d, at);
@@ -117,7 +129,8 @@ void solid(const ScreenTriangle& t, const MeshRows& rows, int y0, int y1) {
             for (int s = 0; s < kMeshSamples; ++s) any = any | (inside[s] = inside_at(s));
             if (none(any)) continue;
             const F near = along(t.near, t, x, y);
-            const Pixels colour = colour_of(t, between(along(t.shade, t, x, y), t.shade.low, t.shade.high));
+            const F shade = between(along(t.shade, t, x, y), t.shade.low, t.shade.high);
+            const Pixels colour = t.blended ? blend_of(t, shade, x, y) : colour_of(t, shade);
             const Mask seen =
                 keep_nearer(middle, between(near, t.near.low, t.near.high), rows.near_middle + at);
             keep_pixels(seen, hn::Set(Bytes(), t.number), rows.number + at);

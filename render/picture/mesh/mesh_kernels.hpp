@@ -34,6 +34,8 @@ struct ScreenTriangle {
     float x = 0, y = 0;  // one corner: px0 and py0 of the planes
     ScreenPlane near, shade;
     float colour[3], brighter[3];        // 0 to 255: colour at shade 0, and what shade 1 adds to it
+    bool blended = false;                // has colours that go from corner to corner, and not those two
+    ScreenPlane own[3];                  // 0 to 255: these colours in full light
     float tint = 0;                      // thickness of glass, in panes seen straight on
     std::uint32_t number = 0;            // number of its plane in MeshProjection, from 1 on
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels that it may touch; high ends excluded
@@ -71,6 +73,9 @@ struct MeshKernels {
     void (*tint)(const float* thickness, const float* colour, int count, std::uint32_t* pixels);
 };
 const MeshKernels& mesh_kernels();
+
+// A triangle that shows a quantity has this share of its colour where it is turned away from the light.
+constexpr float kDarkColour = 0.7f;
 
 // Constants of the alpha of glass as a function of its thickness in panes: 0.05 for one pane, and 0.25 at
 // most.

@@ -14,7 +14,6 @@ constexpr float kKeyShare = 0.62f;  // share of the key light on walls; the sky 
 
 // The share of its strength that a colour keeps where the surface is turned away from the light. The colour
 // must still be found on the colour bar.
-constexpr float kDarkColour = 0.7f;
 
 // Widths of lines, as shares of a main line's width, and their strengths.
 constexpr float kFeatureWidth = 0.8f, kOutlineWidth = 1;
@@ -145,7 +144,9 @@ void MeshProjection::add_triangle(const DrawnMesh& mesh, std::size_t t, Share& s
         const auto v = static_cast<std::size_t>(shape.triangles[t][k]);
         piece.corner[k].at = vertices_[v];
         whole = whole && whole_[v];
-        if (seen.face == Face::solid) piece.corner[k].shade = lit(side * (turn_ * shape.corners[t][k]));
+        if (seen.face != Face::solid) continue;
+        piece.corner[k].shade = lit(side * (turn_ * shape.corners[t][k]));
+        if (mesh.corners) piece.corner[k].own = Eigen::Vector3f((*mesh.corners)[t][k].data());
     }
     for (int i = 0; !whole && i < space_.count && piece.count > 0; ++i) {
         std::array<Eigen::Vector3f, 2> ends;
@@ -200,6 +201,7 @@ void MeshProjection::add_piece(const DrawnMesh& mesh, std::size_t t, const Seen&
                                Share& share) {
     for (int k = 1; k + 1 < piece.count; ++k) {
         ScreenTriangle triangle;
+        triangle.blended = piece.corner[0].own.x() >= 0 && mesh.corners && seen.face == Face::solid;
         if (!set_up(sight_, port_, piece.corner[0], piece.corner[k],
                     piece.corner[static_cast<std::size_t>(k) + 1], triangle))
             continue;

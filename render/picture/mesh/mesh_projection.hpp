@@ -21,6 +21,10 @@ struct DrawnMesh {
     // sRGB, 0 to 255: the colour of each triangle that shows a quantity. Triangles with numbers below 0 look
     // as plain walls do, and so do all triangles when this is null. Glass stays glass.
     const std::vector<std::array<float, 3>>* colours = nullptr;
+    // The same for the corners of triangles that share their colours with those around them; triangles with
+    // numbers below 0 have one colour.
+    using CornerColours = std::array<std::array<float, 3>, 3>;
+    const std::vector<CornerColours>* corners = nullptr;
 };
 
 // sRGB, 0 to 255.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "engine/measure/walls/mesh_wear.hpp"
 #include "engine/mesh/room.hpp"
@@ -59,20 +60,27 @@ bool is_thin(const MeshShape& shape, std::size_t t) {
     return longest * longest > kThin * 2 * area_of(shape, t);
 }
 
+constexpr std::size_t kMostAround = 64;  // around the hub of a disc there may be thousands
+
+std::vector<std::vector<std::uint32_t>> triangles_at_vertices(const MeshShape& shape) {
+    std::vector<std::vector<std::uint32_t>> at(shape.vertices.size());
+    for (std::size_t t = 0; t < shape.triangles.size(); ++t)
+        for (const auto v : shape.triangles[t])
+            at[static_cast<std::size_t>(v)].push_back(static_cast<std::uint32_t>(t));
+    return at;
+}
+
 // For each long thin triangle, itself and those that share a corner with it and turn less than edge_angle
 // (rad); for all others only themselves.
 std::vector<std::vector<std::uint32_t>> smooth_neighbours(const MeshShape& shape, double edge_angle) {
-    constexpr std::size_t kMost = 64;  // around the hub of a disc there may be thousands
-    std::vector<std::vector<std::uint32_t>> at_vertex(shape.vertices.size()), all(shape.triangles.size());
-    for (std::size_t t = 0; t < all.size(); ++t)
-        for (const auto v : shape.triangles[t])
-            at_vertex[static_cast<std::size_t>(v)].push_back(static_cast<std::uint32_t>(t));
+    const auto at_vertex = triangles_at_vertices(shape);
+    std::vector<std::vector<std::uint32_t>> all(shape.triangles.size());
     for (std::size_t t = 0; t < all.size(); ++t) {
         all[t].push_back(static_cast<std::uint32_t>(t));
         if (!is_thin(shape, t)) continue;
         for (const auto v : shape.triangles[t])
             for (const std::uint32_t u : at_vertex[static_cast<std::size_t>(v)])
-                if (u != t && all[t].size() < kMost &&
+                if (u != t && all[t].size() < kMostAround &&
                     shape.normals[t].dot(shape.normals[u]) >= std::cos(edge_angle))
                     all[t].push_back(u);
     }
@@ -105,6 +113,37 @@ std::vector<double> SceneMeshes::shared(std::size_t mesh, std::vector<double> va
     return values;
 }
 
+// patch: of each triangle (smooth_patches()).
+std::vector<SceneMeshes::Corners> SceneMeshes::around_corners(const MeshShape& shape,
+                                                              const std::vector<std::int32_t>& patch) {
+    const auto at_vertex = triangles_at_vertices(shape);
+    std::set<std::int32_t> with_thin;
+    for (std::size_t t = 0; t < patch.size(); ++t)
+        if (is_thin(shape, t)) with_thin.insert(patch[t]);
+    std::vector<Corners> all(shape.triangles.size());
+    for (std::size_t t = 0; t < all.size(); ++t)
+        for (std::size_t k = 0; k < 3 && with_thin.count(patch[t]) > 0; ++k)
+            for (const std::uint32_t u : at_vertex[static_cast<std::size_t>(shape.triangles[t][k])])
+                if (all[t][k].size() < kMostAround && patch[u] == patch[t]) all[t][k].push_back(u);
+    return all;
+}
+
+// On a smooth patch that has thin triangles the colour goes from corner to corner of each triangle. At a
+// corner it is that of the mean value of the triangles around it, so that neighbours meet in one colour.
+void SceneMeshes::blend(std::size_t m, const std::vector<double>& values) {
+    constexpr DrawnMesh::CornerColours one_colour{{{-1, -1, -1}, {-1, -1, -1}, {-1, -1, -1}}};
+    std::vector<DrawnMesh::CornerColours>& corners = corner_colours_[m];
+    corners.assign(values.size(), one_colour);
+    for (std::size_t t = 0; t < values.size(); ++t)
+        for (std::size_t k = 0; k < 3 && !std::isnan(values[t]); ++k) {
+            double sum = 0, area = 0;
+            for (const std::uint32_t u : around_[m][t][k])
+                if (!std::isnan(values[u])) sum += areas_[m][u] * values[u], area += areas_[m][u];
+            if (area > 0) corners[t][k] = bytes(scale_->at(sum / area));
+        }
+    drawn_[m].corners = &corners;
+}
+
 SceneMeshes::SceneMeshes(const FilmedScene& scene)
     : by_pressure_(scene.film.look.walls.colour == FilmWalls::Colour::pressure) {
     if (shows_wear(scene)) scale_.emplace(scene.film.look.walls);
@@ -118,25 +157,29 @@ SceneMeshes::SceneMeshes(const FilmedScene& scene)
         if (!scale_) continue;
         neighbours_.push_back(smooth_neighbours(*drawn_.back().shape, edge_angle));
         areas_.push_back(areas_of(*drawn_.back().shape));
+        around_.push_back(around_corners(*drawn_.back().shape, smooth_patches(*mesh.surface, edge_angle)));
     }
     colours_.resize(drawn_.size());
+    corner_colours_.resize(drawn_.size());
 }
 
 void SceneMeshes::colour_by(const Shot& frame) {
     constexpr std::array<float, 3> as_walls_look{-1, -1, -1};
     if (!scale_) return;
     for (std::size_t m = 0; m < drawn_.size(); ++m) {
-        drawn_[m].colours = nullptr;
+        drawn_[m].colours = nullptr, drawn_[m].corners = nullptr;
         if (!frame.worn || mesh_[m] >= frame.worn->size()) continue;
         const MeshWear& worn = (*frame.worn)[mesh_[m]];
         const std::vector<double>& values = by_pressure_ ? worn.pressure : worn.wear;
         if (values.size() != drawn_[m].shape->triangles.size()) continue;
         colours_[m].clear();
-        for (const double value : shared(m, values)) {
+        const std::vector<double> smooth = shared(m, values);
+        for (const double value : smooth) {
             colours_[m].push_back(std::isnan(value) ? as_walls_look : bytes(scale_->at(value)));
             clipped_.take(value, {scale_->low(), scale_->high()});
         }
         drawn_[m].colours = &colours_[m];
+        blend(m, smooth);
     }
 }
 

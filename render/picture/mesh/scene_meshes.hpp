@@ -35,16 +35,23 @@ class SceneMeshes {
 
   private:
     std::vector<double> shared(std::size_t mesh, std::vector<double> values) const;
+    void blend(std::size_t mesh, const std::vector<double>& values);
 
     std::vector<DrawnMesh> drawn_;
     std::optional<ColourScale> scale_;  // set where meshes have colours
     bool by_pressure_ = false;
     std::vector<std::size_t> mesh_;  // numbers of the scene's meshes
     std::vector<std::vector<std::array<float, 3>>> colours_;
+    std::vector<std::vector<DrawnMesh::CornerColours>> corner_colours_;
     ClippedCount clipped_;
     std::vector<std::size_t> body_;  // numbers of their bodies
     // Where meshes have colours: for each triangle, those over which its value is shared, and its area (m2).
     std::vector<std::vector<std::vector<std::uint32_t>>> neighbours_;
+    // For the three corners of each triangle whose colours blend, the triangles around them; else empty.
+    using Corners = std::array<std::vector<std::uint32_t>, 3>;
+    static std::vector<Corners> around_corners(const MeshShape& shape,
+                                               const std::vector<std::int32_t>& patch);
+    std::vector<std::vector<Corners>> around_;
     std::vector<std::vector<double>> areas_;
 };
 

@@ -52,7 +52,8 @@ LitCorner crossing(const DrawnSpace::Half& half, LitCorner a, LitCorner b) {
     };
     if (before(b.at, a.at)) std::swap(a, b);
     const float from = half.height(a.at), share = from / (from - half.height(b.at));
-    return {a.at + share * (b.at - a.at), a.shade + share * (b.shade - a.shade)};
+    return {a.at + share * (b.at - a.at), a.shade + share * (b.shade - a.shade),
+            a.own + share * (b.own - a.own)};
 }
 
 }  // namespace
@@ -115,6 +116,8 @@ bool set_up(const Sight& sight, const PortSize& port, const LitCorner& a, const 
     t.x = at[0].x(), t.y = at[0].y();
     t.near = plane_through(at, {at[0].z(), at[1].z(), at[2].z()}, area);
     t.shade = plane_through(at, {a.shade, b.shade, c.shade}, area);
+    for (int i = 0; t.blended && i < 3; ++i)
+        t.own[i] = plane_through(at, {a.own[i], b.own[i], c.own[i]}, area);
     return true;
 }
 

@@ -11,10 +11,11 @@
 
 namespace grainreel {
 
-// A corner in view coordinates (m), and how brightly it is lit, 0 to 1.
+// A corner in view coordinates (m), how brightly it is lit, 0 to 1, and its own colour, 0 to 255.
 struct LitCorner {
     Eigen::Vector3f at;
     float shade = 0;
+    Eigen::Vector3f own = Eigen::Vector3f::Zero();
 };
 
 // The part of space that is drawn: what lies in all these half-spaces normal . p >= distance. In perspective
@@ -49,8 +50,8 @@ struct PortSize {
     int width, height;
 };
 
-// Fills in all members of a triangle except colours and number. Returns false where no part of the triangle
-// can be seen.
+// Fills in all members of a triangle except `colour`, `brighter` and number; `blended` is given. Returns
+// false where no part of the triangle can be seen.
 bool set_up(const Sight& sight, const PortSize& port, const LitCorner& a, const LitCorner& b,
             const LitCorner& c, ScreenTriangle& triangle);
 
