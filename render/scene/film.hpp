@@ -128,6 +128,7 @@ struct FilmPlot {
     // Velocities are means over the last period of the drive. So is the line of a column, and its rows are a
     // faint line behind it.
     bool period = false;
+    double window = 0;       // s: a plot of a column shows the last so long; 0: the whole run
     bool own_label = false;  // the label is the scene's own, and not the column's
     bool is_profile() const { return profile != ProfileOf::nothing; }
     bool of_velocity() const {
@@ -326,6 +327,31 @@ enum class FilmFormat { mp4, webm, av1, gif, ffv1, png, y4m };  // docs/guide/fi
 // frames the picture, else in gutters.
 enum class WordPlace { automatic, gutters, plates, none };
 
+// Where the two gutters of words lie. A gutter as wide as the picture has its words in rows, another has a
+// column. The first says what is seen, the second what changes with time.
+enum class GutterPlace {
+    sides,            // columns left and right
+    row_above,        // both beside each other in one row above
+    row_below,        // the same below
+    column,           // one column at the left, with the words of both gutters below each other
+    above_and_below,  // rows above and below
+    below,            // both below
+    above_and_side,   // the first above, the second at the right
+    below_and_side,   // the first below, the second at the right
+    side_and_below,   // the first at the left, the second below
+};
+
+// Gutters as the user wants them, so that several films look alike.
+struct FilmGutters {
+    bool wanted = false;  // else they are chosen by the room that words and container need
+    GutterPlace place = GutterPlace::sides;
+    double letters = 1;  // over their usual size
+    // Least sizes: widths of columns as shares of the picture's width, heights of rows as shares of its
+    // height. Of one row `first` is the height, and `second` the width of the second gutter.
+    double first = 0, second = 0;
+    bool operator==(const FilmGutters&) const = default;
+};
+
 struct Film {
     int width = 1920, height = 1080;
     double rate = 30;   // frames a second of film
@@ -342,6 +368,7 @@ struct Film {
     int quality = 20;  // crf of x264; other codecs take a value that looks alike
     std::string preset = "veryfast";
     WordPlace words = WordPlace::automatic;
+    FilmGutters gutters;
     WordKinds word_kinds;
     Wording wording;          // language and own words
     bool axes = false;        // arrows along x, y and z beside the picture

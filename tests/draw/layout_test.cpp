@@ -9,6 +9,8 @@
 #include "engine/measure/columns.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/words/blocks.hpp"
+#include "render/picture/words/layout.hpp"
+#include "render/scene/film_pace.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/draw/seen_box.hpp"
 #include "tests/draw/support.hpp"
@@ -216,6 +218,48 @@ TEST(Layout, LettersShrinkBeforeWordsAreLeftOut) {
     EXPECT_TRUE(smaller);
     EXPECT_DOUBLE_EQ(type_scale(roomy.film, 0.8).main, 0.8 * whole);
     EXPECT_GE(type_scale(scene_of(320, 180, {}).film, 0.8).minor, 10);
+}
+
+// All captions of time of the film have their lines, whatever stands below them.
+TEST(Layout, TheCaptionOfTimeHasAllItsLines) {
+    for (const auto& [width, height] : {std::pair{560, 420}, {640, 360}, {480, 640}, {854, 480}})
+        for (const std::size_t plots : {0u, 1u}) {
+            FilmedScene scene = scene_of(width, height, {plots, 2});
+            scene.film.segments.resize(2);
+            scene.film.segments[0].playback = 0.1;
+            scene.film.segments[1].kind = FilmSegment::Kind::locked;
+            scene.film.segments[1].average = 1;
+            const PictureLayout layout = plan_layout(scene);
+            const Writer measure{nullptr, layout.type, make_palette({1, 1, 1})};
+            const NumbersPlan plan = plan_numbers(measure, scene, layout);
+            for (const std::string& caption : playback_captions(scene.film, scene.drive)) {
+                const auto high = [&](int lines) {
+                    return measure_text(caption, measure.minor(), plan.caption_wrap, lines).height;
+                };
+                EXPECT_EQ(high(plan.caption_lines), high(99)) << width << "x" << height << ": " << caption;
+            }
+            EXPECT_EQ(plan.plots.size(), plots) << width << "x" << height;
+        }
+}
+
+// Films with other titles and other species have one layout where they ask for the same gutters.
+TEST(Layout, IsOneForScenesThatShareTheirGutters) {
+    for (const auto& [width, height] : {std::pair{960, 540}, {640, 640}, {540, 960}}) {
+        std::vector<FilmedScene> scenes{scene_of(width, height, {1, 1}), scene_of(width, height, {1, 4})};
+        scenes[1].film.title = "One";
+        scenes[1].species[2].name = "grains with a long name";
+        const FilmGutters gutters = gutters_for_all(scenes);
+        ASSERT_TRUE(gutters.wanted) << width;
+        EXPECT_NE(plan_layout(scenes[0]).port.width * plan_layout(scenes[0]).port.height,
+                  plan_layout(scenes[1]).port.width * plan_layout(scenes[1]).port.height);
+        for (FilmedScene& scene : scenes) scene.film.gutters = gutters;
+        const PictureLayout one = plan_layout(scenes[0]), other = plan_layout(scenes[1]);
+        EXPECT_EQ(std::tie(one.port.x, one.port.y, one.port.width, one.port.height),
+                  std::tie(other.port.x, other.port.y, other.port.width, other.port.height))
+            << width;
+        EXPECT_EQ(one.type.main, other.type.main);
+        EXPECT_TRUE(one.left_out.empty() && other.left_out.empty());
+    }
 }
 
 // Nine species do not vanish: as many as fit are there, and the others are counted.

@@ -12,6 +12,8 @@
 #include "engine/base/text.hpp"
 #include "engine/plan/reach.hpp"
 #include "engine/plan/resolved_scene.hpp"
+#include "render/picture/camera/camera_path.hpp"
+#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/study/study_text.hpp"
 #include "tests/support/tells.hpp"
@@ -53,11 +55,36 @@ TEST(StudyMembers, ShareTheHeightThatTheirPicturesReach) {
     for (const Member& member : members)
         highest = std::max(highest, estimated_reach(read_filmed_scene(study.scene, member.sets)).value());
     for (const Member& member : members) {
-        ASSERT_EQ(member.framing.size(), 1u);
+        ASSERT_GE(member.framing.size(), 1u);
         EXPECT_EQ(member.framing[0].text, fmt::format("film.camera.reach={:.6g}", highest));
     }
     const Study framed = folder.read("set = [\"film.camera.frame=container\"]\n" + small_study);
     EXPECT_TRUE(members_of(framed).front().framing.empty());
+}
+
+// Words stand at one place in all pictures, and a length is as long in each, although the vessels differ.
+TEST(StudyMembers, ShareLayoutAndScale) {
+    const StudyFolderOfTest folder;
+    const std::string wider =
+        with_line(small_study, "from = \"5 mm\"\nto = \"6 mm\"", "from = \"30 mm\"\nto = \"45 mm\"");
+    const Study study = folder.read("set = [\"film.size=640x360\"]\n" +
+                                    with_line(wider, "species.big.diameter", "container.width"));
+    const std::vector<Member> members = members_of(study);
+    std::vector<FilmedScene> scenes;
+    for (const Member& member : members) {
+        Assignments sets = member.sets;
+        sets.insert(sets.end(), member.framing.begin(), member.framing.end());
+        scenes.push_back(read_filmed_scene(study.scene, sets));
+    }
+    const PictureLayout first = plan_layout(scenes.front());
+    for (const FilmedScene& scene : scenes) {
+        EXPECT_TRUE(scene.film.gutters.wanted);
+        const PictureLayout layout = plan_layout(scene);
+        EXPECT_EQ(layout.port.width, first.port.width);
+        EXPECT_EQ(layout.port.height, first.port.height);
+        EXPECT_FALSE(layout.plates);
+        EXPECT_NEAR(framed_scale(scene, layout) / framed_scale(scenes.front(), first), 1, 2e-3);
+    }
 }
 
 // Members have the same scene as `movie --set ...`.

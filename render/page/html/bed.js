@@ -177,6 +177,19 @@ class BedPanel {
             this.colourings.push({name: tr(film.logarithmic ? "as in the film: {1}, logarithmic" : "as in the film: {1}", film.title), by: asInFilm, range: [0, 1], ends: [film.low, film.high], unit: film.unit});
     }
 
+    /** Beds of about one size are seen from one distance, so that a length is as long in each of them. */
+    static shareScale(panels) {
+        const mostUnlike = 3; // as in films side by side
+        const boxes = panels.map((panel) => panel.facts.box), ends = (of, key) => [0, 1, 2].map((k) => of(...boxes.map((box) => box[key][k])));
+        const sizes = boxes.map(({low, high}) => Math.hypot(...low.map((from, k) => high[k] - from)));
+        if (Math.max(...sizes) > mostUnlike * Math.min(...sizes)) return;
+        for (const {viewer} of panels) {
+            viewer.camera.box = {low: ends(Math.min, "low"), high: ends(Math.max, "high")};
+            viewer.camera.reset();
+            viewer.change();
+        }
+    }
+
     /** Gives all beds the same colourings, each on a scale that suits all of them. */
     static shareColourings(panels) {
         const common = [];

@@ -116,7 +116,7 @@ async function openPage() {
     const films = report.films.filter((film) => film?.tied), beds = report.beds.filter((bed) => bed);
     for (const panels of [films, beds]) for (const one of panels) one.others = panels.filter((other) => other !== one);
     for (const [k, film] of films.entries()) film.leads = k === 0;
-    if (beds.length > 1) BedPanel.shareColourings(beds);
+    if (beds.length > 1) BedPanel.shareColourings(beds), BedPanel.shareScale(beds);
     [report.film] = report.films;
     [report.bed] = report.beds;
     for (const [k, run] of runs.entries()) await openTable(run, k, endOf(k));

@@ -313,6 +313,7 @@ void list_film(Keys& all) {
     list_segments(all);
     list_captions(all);
     list_labels(all);
+    list_gutters(all);
     list_shows(all);
     list_wording(all);
 }
@@ -333,6 +334,7 @@ void read_film(Document& document, FilmedScene& scene) {
     read_captions(document, scene);
     read_length(document, scene);
     read_labels(document, scene);
+    read_gutters(document, scene);
     read_shows(document, scene);
 }
 
@@ -351,6 +353,7 @@ void write_film(SceneText& out, const FilmedScene& scene) {
     write_segments(out, scene);
     write_captions(out, scene);
     write_labels(out, scene);
+    write_gutters(out, scene);
     write_wording(out, scene);
 }
 

@@ -74,6 +74,13 @@ void list_captions(keys::Keys& all);
 void read_captions(Document& document, FilmedScene& scene);  // call it after [run] is read
 void write_captions(SceneText& out, const FilmedScene& scene);
 
+// Where the gutters of words lie.
+void list_gutters(keys::Keys& all);
+void read_gutters(Document& document, FilmedScene& scene);
+void write_gutters(SceneText& out, const FilmedScene& scene);
+// The assignment that gives a film these gutters; none where they are not wanted.
+Assignments gutter_keys(const FilmGutters& gutters);
+
 // The own words of [film.wording]. Call it after `lang` is read and before plots are, whose labels follow.
 void list_wording(keys::Keys& all);
 void read_wording(Document& document, FilmedScene& scene);

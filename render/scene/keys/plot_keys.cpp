@@ -116,6 +116,13 @@ const KeyTable<FilmPlot>& plot_table() {
                     plot.period =
                         scene.drive.present && scene.run.duration * scene.drive.frequency >= least_periods;
             }),
+        quantity(
+            "window", &P::window, Dimension::time, positive, note("the whole run"),
+            "The axis of time is so long and moves along, so that single bounces or periods can be seen.")
+            .useless_for([](const P& plot) {
+                return plot.is_profile() ? "a 'profile' is not drawn against time" : nullptr;
+            })
+            .unwritten_if([](const P& plot) { return !(plot.window > 0); }),
         text("label", &P::label, note("by the column"), "Above the plot.").unwritten_if([](const P& plot) {
             return !plot.own_label;
         }),

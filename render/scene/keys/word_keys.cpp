@@ -174,4 +174,61 @@ keys::BoundKey<Film> word_kinds_key() {
         .unwritten_if([](const Film& film) { return film.word_kinds == WordKinds(); });
 }
 
+namespace {
+
+const ChoiceWords<GutterPlace> gutter_words{{"sides", GutterPlace::sides},
+                                            {"row-above", GutterPlace::row_above},
+                                            {"row-below", GutterPlace::row_below},
+                                            {"column", GutterPlace::column},
+                                            {"above-and-below", GutterPlace::above_and_below},
+                                            {"below", GutterPlace::below},
+                                            {"above-and-side", GutterPlace::above_and_side},
+                                            {"below-and-side", GutterPlace::below_and_side},
+                                            {"side-and-below", GutterPlace::side_and_below}};
+
+const KeyTable<FilmGutters>& gutter_table() {
+    using G = FilmGutters;
+    const Range share{0, 0.6, false, false};
+    static const KeyTable<G> table{
+        choice("place", &G::place, gutter_words, note("required in this table"),
+               "Where title and legend lie, and where time, notes and plots do."),
+        quantity("letters", &G::letters, Dimension::number, {0.7, 1, false, false}, initial(),
+                 "Their size over the usual one."),
+        quantity(
+            "first", &G::first, Dimension::number, share, note("as the words need"),
+            "At least so wide a column, or so high a row, as a share of the picture: of title and legend.")
+            .unwritten_if([](const G& gutters) { return gutters.first == 0; }),
+        quantity("second", &G::second, Dimension::number, share, note("as the words need"),
+                 "The same for time, notes and plots; of one row its width.")
+            .unwritten_if([](const G& gutters) { return gutters.second == 0; }),
+    };
+    return table;
+}
+
+}  // namespace
+
+void list_gutters(Keys& all) {
+    gutter_table().list(all, "film.gutters");
+}
+
+void read_gutters(Document& document, FilmedScene& scene) {
+    if (!document.is_table("film.gutters")) return;
+    if (!document.has("film.gutters.place")) document.fail_missing("film.gutters.place");
+    gutter_table().read(document, scene, "film.gutters", scene.film.gutters);
+    scene.film.gutters.wanted = true;
+}
+
+void write_gutters(SceneText& out, const FilmedScene& scene) {
+    if (!scene.film.gutters.wanted) return;
+    out.table("film.gutters");
+    gutter_table().write(out, scene, scene.film.gutters);
+}
+
+Assignments gutter_keys(const FilmGutters& gutters) {
+    if (!gutters.wanted) return {};
+    return {fmt::format("film.gutters={{place={}, letters={:.6g}, first={:.6g}, second={:.6g}}}",
+                        quoted(word_of(gutters.place, gutter_words)), gutters.letters, gutters.first,
+                        gutters.second)};
+}
+
 }  // namespace grainreel

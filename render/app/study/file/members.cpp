@@ -14,7 +14,10 @@
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
+#include "render/picture/camera/camera_path.hpp"
+#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
+#include "render/scene/keys/film_keys.hpp"
 
 namespace grainreel {
 namespace {
@@ -108,28 +111,69 @@ std::size_t count_members(const Study& study, bool many_are_meant) {
 
 namespace {
 
-// The height that the pictures of all settings reach: the highest of all, so that they have one scale and one
-// layout. None where a setting's camera frames something else.
-class SharedReach {
+// What the pictures of all settings share, so that they can be compared: the height that they reach, which is
+// the highest of all; where their words stand; and how large a length is.
+class SharedPictures {
   public:
-    void add_setting(const FilmedScene& scene) {
-        const Camera& camera = scene.film.camera;
-        const std::optional<double> reach = camera.reach ? camera.reach : estimated_reach(scene);
-        ++settings_;
-        if (camera.frame != FramingScope::reach || camera.position || !reach)
-            alike_ = false;
-        else
-            highest_ = std::max(highest_, *reach);
-    }
-    Assignments keys() const {
-        if (!alike_ || settings_ < 2) return {};
-        return {fmt::format("film.camera.reach={:.6g}", highest_)};
+    void add_setting(const FilmedScene& scene) { scenes_.push_back(scene); }
+
+    // The keys for the pictures of each setting.
+    std::vector<Assignments> keys() {
+        std::vector<Assignments> all(scenes_.size());
+        if (scenes_.size() < 2) return all;
+        const Assignments reach = share_reach(), gutters = share_gutters();
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            all[k] = reach;
+            all[k].insert(all[k].end(), gutters.begin(), gutters.end());
+        }
+        if (!gutters.empty()) share_scale(all);
+        return all;
     }
 
   private:
-    std::size_t settings_ = 0;
-    double highest_ = 0;  // m
-    bool alike_ = true;
+    // None where a setting's camera frames something else.
+    Assignments share_reach() {
+        double highest = 0;  // m
+        for (const FilmedScene& scene : scenes_) {
+            const Camera& camera = scene.film.camera;
+            const std::optional<double> reach = camera.reach ? camera.reach : estimated_reach(scene);
+            if (camera.frame != FramingScope::reach || camera.position || !reach) return {};
+            highest = std::max(highest, *reach);
+        }
+        for (FilmedScene& scene : scenes_) scene.film.camera.reach = highest;
+        return {fmt::format("film.camera.reach={:.6g}", highest)};
+    }
+
+    // None where the user places the words, and where there are so many settings that it would take seconds.
+    Assignments share_gutters() {
+        constexpr std::size_t most = 60;
+        if (scenes_.size() > most) return {};
+        for (const FilmedScene& scene : scenes_)
+            if (scene.film.gutters.wanted || scene.film.words == WordPlace::none) return {};
+        const FilmGutters gutters = gutters_for_all(scenes_);
+        for (FilmedScene& scene : scenes_) scene.film.gutters = gutters;
+        return gutter_keys(gutters);
+    }
+
+    // Draws all at the scale of the smallest, unless it would be too small to see at the others' scale.
+    void share_scale(std::vector<Assignments>& keys) const {
+        constexpr double most_unlike = 3, alike = 1.001;  // as panels side by side
+        std::vector<double> scales;
+        for (const FilmedScene& scene : scenes_) {
+            const Film& film = scene.film;
+            if (film.words != WordPlace::automatic || film.camera.framed_by_user() || film.camera.moves())
+                return;
+            scales.push_back(framed_scale(scene, plan_layout(scene)));
+        }
+        const auto [least, most] = std::minmax_element(scales.begin(), scales.end());
+        if (*most > most_unlike * *least || *most < alike * *least) return;
+        for (std::size_t k = 0; k < keys.size(); ++k) {
+            keys[k].emplace_back("film.words=gutters");
+            keys[k].emplace_back(fmt::format("film.camera.zoom={:.6g}", *least / scales[k]));
+        }
+    }
+
+    std::vector<FilmedScene> scenes_;
 };
 
 }  // namespace
@@ -156,7 +200,7 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
     count_members(study, true);  // throws when there are too many
     const std::size_t settings = count_settings(study);
     std::vector<Member> members;
-    SharedReach reach;
+    SharedPictures pictures;
     std::map<std::pair<std::string, double>, std::size_t> known;  // the member with each hash and duration
     for (std::size_t setting = 0; setting < settings; ++setting) {
         Member member = setting_of(study, setting);
@@ -164,7 +208,7 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
             read_filmed_scene_text(study.scene_text, study.scene, member.sets, measurable_in);
         const Plan plan = plan_with_film(scene);
         accept(scene, plan);
-        reach.add_setting(scene);
+        pictures.add_setting(scene);
         // Members read a copy of the scene, and relative paths would count from the folder of the copy.
         if (scene.start.method == Start::Method::file)
             member.sets.push_back("start.file=" +
@@ -188,7 +232,8 @@ std::vector<Member> make_members(const Study& study, const AcceptSetting& accept
             members.push_back(std::move(seeded));
         }
     }
-    for (Member& member : members) member.framing = reach.keys();
+    const std::vector<Assignments> shared = pictures.keys();
+    for (Member& member : members) member.framing = shared.at(member.setting);
     return members;
 }
 
