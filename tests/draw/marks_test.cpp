@@ -212,6 +212,42 @@ TEST(Plots, MeansOfAPeriodHaveNoSwing) {
     }
 }
 
+// The axis of time is as long as the window and moves along: the newest row stands at its end.
+TEST(Plots, AWindowMovesAlongWithTime) {
+    const FilmedScene scene = wedge(1280, 720);
+    PlotRange shown = any_plot();
+    shown.range = std::array<double, 2>{0, 1};
+    shown.window = 2;
+    Plot plot(shown, type_scale(scene.film), make_palette(scene.film.background));
+    std::vector<std::array<double, 2>> rows;
+    const auto drawn = [](Plot& from) {
+        const CairoSurface surface = blank_surface({0, 0, 300, 160}, {1, 1, 1});
+        from.draw(CairoContext(cairo_create(surface.get())).get(), 0, 0);
+        Picture picture(300, 160);
+        copy_surface(surface.get(), {0, 0, 300, 160}, picture);
+        return picture;
+    };
+    for (int k = 0; k <= 900; ++k) {  // up to 9 s of 10
+        rows.push_back({0.01 * k, k % 100 < 50 ? 0.2 : 0.8});
+        plot.take(frame_with_rows(rows));
+        const double now = rows.back()[0], begin = std::max(0.0, now - 2);
+        ASSERT_NEAR(plot.x_of(begin + 2) - plot.x_of(begin), plot.x_of(2) - plot.x_of(0), 1e-9);
+        ASSERT_NEAR(plot.x_of(begin), plot.x_of(now) - (now - begin) * (plot.x_of(1) - plot.x_of(0)), 1e-9);
+    }
+    const Picture picture = drawn(plot);
+    const Colour accent = make_palette(scene.film.background).accent;
+    EXPECT_NEAR(marker(picture, {0, 0, 300, 160}, accent).x(), plot.x_of(9), 0.6);
+    // One step up in each second, and the line has both heights over the whole axis.
+    for (const double time : {7.2, 8.2}) {
+        const int x = static_cast<int>(plot.x_of(time)), y = static_cast<int>(plot.y_of(0.2));
+        EXPECT_LT(picture.pixel(x, y)[0], 128) << time;
+        EXPECT_GT(picture.pixel(x, static_cast<int>(plot.y_of(0.8)))[0], 128) << time;
+    }
+    Plot at_once(shown, type_scale(scene.film), make_palette(scene.film.background));
+    at_once.take(frame_with_rows(rows));
+    EXPECT_EQ(drawn(at_once).rgba, picture.rgba);
+}
+
 // These rows give no scale yet: their axis shows only 0, and no label goes beyond the plot.
 TEST(Plots, ZerosAloneAreCalledZero) {
     const FilmedScene scene = wedge(1280, 720);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "render/picture/camera/camera_path.hpp"
+#include "render/picture/camera/framing.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/scene/filmed_scene.hpp"
 
@@ -167,6 +168,32 @@ double seen_height(const Panel& panel, const PanelLayout::Place& place) {
     return framed_height(scene, bare_layout(scene.film));
 }
 
+// Pixels: the width that a panel's container needs in the middle of its port.
+double seen_width(const Panel& panel, const PanelLayout::Place& place) {
+    FilmedScene scene = panel.scene;
+    scene.film.width = place.port.width;
+    scene.film.height = place.port.height;
+    scene.film.camera.zoom = place.zoom;
+    const View view = frame_container(scene, bare_layout(scene.film));
+    double half = 0;
+    for (const Vec3& point : framing_points(scene))
+        half = std::max(half, std::abs(view.project(point).x() - 0.5 * place.port.width));
+    return 2 * half;
+}
+
+// Plots beside the ports take the width that the containers do not need.
+void widen_plots(const std::vector<Panel>& panels, const Film& film, const PanelLayout& layout,
+                 PlotGrid& plots) {
+    constexpr double most = 0.45;  // share of a panel
+    if (plots.at != PlotsAt::beside) return;
+    double needed = least_panel;
+    for (std::size_t i = 0; i < panels.size(); ++i)
+        needed = std::max(needed, seen_width(panels[i], layout.places[i]));
+    const int port = layout.places[0].port.width, panel = port + plots.width;
+    const int spare = port - static_cast<int>(needed + 2 * panel_type(film).margin);
+    plots.width += std::max(0, std::min(spare, static_cast<int>(most * panel) - plots.width));
+}
+
 // Where panels are narrow, takes the room above and below their containers out of the ports. It goes to the
 // plots below and to the space around the panels, so that captions and legends stand close to their
 // containers.
@@ -181,9 +208,11 @@ void close_up(const std::vector<Panel>& panels, const Film& film, const WordHeig
     seen = std::max<double>(seen, least_panel);
     for (std::size_t i = 0; i < panels.size(); ++i)
         seen = std::max(seen, seen_height(panels[i], layout.places[i]));
-    const int port = static_cast<int>(seen + 2 * panel_type(film).margin);
-    int spare = layout.places[0].port.height - port;
-    if (spare <= 0) return;
+    const int before = plots.width, all = layout.places[0].port.height;
+    widen_plots(panels, film, layout, plots);
+    const int port = std::min(all, static_cast<int>(seen + 2 * panel_type(film).margin));
+    int spare = all - port;
+    if (spare <= 0 && plots.width == before) return;
     if (plots.at == PlotsAt::below) {
         const double widest = static_cast<double>(layout.places[0].port.width) / plots.columns;
         const int most = static_cast<int>(std::min(most_plots * panel, plots.rows * most_upright * widest));

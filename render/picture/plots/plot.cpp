@@ -9,6 +9,8 @@
 
 #include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
+#include "engine/scene/bed.hpp"
+#include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/plots/axes.hpp"
@@ -44,6 +46,36 @@ void Plot::Slice::add(double value) {
     high = std::max(high, value);
 }
 
+namespace {
+
+// The largest Gamma of the drive and its stages; 0 without gravity.
+double highest_g_level(const Scene& scene) {
+    const double gravity = scene.gravity.norm();
+    if (!(gravity > 0) || !scene.drive.present) return 0;
+    double highest = scene.drive.g_level(gravity);
+    if (!scene.drive.changes()) return highest;
+    const DriveSchedule schedule(scene.drive);
+    for (const PeriodStretch& stretch : schedule.times().stretches()) {
+        const DriveSchedule::Now now = schedule.now(stretch.cycles);
+        const double omega = 2 * std::numbers::pi * now.frequency;
+        if (now.kind != DriveStage::Kind::rest)
+            highest = std::max(highest, now.amplitude * omega * omega / gravity);
+    }
+    return highest;
+}
+
+// The whole axis of a column that has a known bound, which it reaches in the end. Such an axis is the same from
+// the first picture on.
+std::optional<std::array<double, 2>> known_range(const Scene& scene, const std::string& column) {
+    double most = 0;
+    if (column == "outflow_kg") most = total_mass(scene);
+    if (column == "drive_g_level") most = highest_g_level(scene);
+    if (!(most > 0)) return std::nullopt;
+    return round_limits(0, most, most_axis_ticks + 1);
+}
+
+}  // namespace
+
 PlotRange plot_frame(const FilmedScene& scene, const FilmPlot& plot) {
     PlotRange frame;
     frame.column = plot.column;
@@ -51,10 +83,12 @@ PlotRange plot_frame(const FilmedScene& scene, const FilmPlot& plot) {
     frame.dimension = plot.dimension;
     frame.time = {0, scene.run.duration};
     frame.range = plot.range;
+    frame.window = plot.window;
     frame.smooth = plot.period;
     const ColumnAxis axis = axis_of_column(scene, plot.column);
     frame.from_zero = axis.from_zero;
     frame.expected = axis.expected;
+    if (!frame.range) frame.range = known_range(scene, plot.column);
     frame.time_name = scene.film.wording(Word::time);
     return frame;
 }
@@ -66,6 +100,7 @@ Plot::Plot(const PlotRange& frame, const TypeScale& type, const Palette& palette
       axes_(blank_surface({0, 0, frame.width, frame.height}, palette.background, 0)) {
     const double words = line_height(type.minor);
     double end = 0;
+    newest_ = frame.time[1];  // where the numbers of a moving axis are longest
     for (const TimeTick& tick : time_ticks()) end = measure_text(tick.text, {type.minor, false}).width;
     left_ = std::ceil(measure_text("−0.00", {type.minor, false}).width + 0.6 * type.minor);
     right_ = std::floor(frame.width - std::max(0.5 * end, 0.4 * type.main));
@@ -80,7 +115,7 @@ Plot::Plot(const PlotRange& frame, const TypeScale& type, const Palette& palette
 std::vector<Plot::TimeTick> Plot::time_ticks() const {
     const double unit = short_run() ? 1e-3 : 1;
     const std::vector<double> times =
-        round_ticks(frame_.time[0] / unit, frame_.time[1] / unit, most_axis_ticks);
+        round_ticks(begin() / unit, (begin() + length()) / unit, most_axis_ticks);
     std::vector<TimeTick> ticks;
     for (const double time : times)
         ticks.push_back({time * unit, tick_text(time, times.size() > 1 ? times[1] - times[0] : 1)});
@@ -93,12 +128,22 @@ void Plot::forget() {
     any_ = false;
     unit_.reset();
     limits_ = frame_.range.value_or(std::array<double, 2>{0, 1});
-    const std::vector<Slice> none(static_cast<std::size_t>(std::max(1.0, right_ - left_)) + 1);
-    line_ = rows_behind_ = {none, true};
+    newest_ = frame_.time[0];
+    const std::deque<Slice> none(static_cast<std::size_t>(std::max(1.0, right_ - left_)) + 1);
+    line_ = rows_behind_ = {none, 0, true};
+}
+
+double Plot::length() const {
+    const double all = frame_.time[1] - frame_.time[0];
+    return frame_.window > 0 ? std::min(frame_.window, all) : all;
+}
+
+double Plot::begin() const {
+    return std::max(frame_.time[0], newest_ - length());
 }
 
 double Plot::x_of(double time) const {
-    return left_ + (time - frame_.time[0]) / (frame_.time[1] - frame_.time[0]) * (right_ - left_);
+    return left_ + (time - begin()) / length() * (right_ - left_);
 }
 
 double Plot::y_of(double value) const {
@@ -132,6 +177,7 @@ bool Plot::take(const Shot& frame) {
         if (!line_.gap) last_ = {times[i], values[i]};
     }
     rows_ = frame.measure_rows;
+    if (frame_.window > 0 && !times.empty()) newest_ = times.back();
     return true;
 }
 
@@ -152,11 +198,27 @@ void Plot::add(Curve& curve, double time, double value) {
     if (curve.gap) return;
     if (!frame_.range) widen(value);
     any_ = true;
-    const double at =
-        std::clamp(std::floor(x_of(time) - left_), 0.0, static_cast<double>(curve.slices.size()) - 1);
-    Slice& slice = curve.slices[static_cast<std::size_t>(at)];
+    Slice& slice = slice_at(curve, time);
     if (slice.count == 0) slice.after_gap = after_gap;
     slice.add(value);
+}
+
+// The slice of a time. A moving axis forgets the slices that have left it.
+Plot::Slice& Plot::slice_at(Curve& curve, double time) const {
+    const auto size = static_cast<std::int64_t>(curve.slices.size());
+    const double column = std::max(0.0, std::floor((time - frame_.time[0]) * columns_a_second()));
+    if (!(frame_.window > 0))
+        return curve.slices[static_cast<std::size_t>(std::min(column, static_cast<double>(size - 1)))];
+    const auto at = static_cast<std::int64_t>(std::min(column, 9e15));
+    if (at - curve.first >= 2 * size) {  // nothing of what was seen is on the axis
+        std::fill(curve.slices.begin(), curve.slices.end(), Slice());
+        curve.first = at - size + 1;
+    }
+    for (; at - curve.first >= size; ++curve.first) {
+        curve.slices.pop_front();
+        curve.slices.emplace_back();
+    }
+    return curve.slices[static_cast<std::size_t>(std::max<std::int64_t>(0, at - curve.first))];
 }
 
 void Plot::widen(double value) {
@@ -186,7 +248,7 @@ void Plot::keep_axes() {
     const CairoContext on(cairo_create(axes_.get()));
     fill_surface(on.get(), palette_.background, 0);
     draw_axes(on.get());
-    drawn_ = span();
+    drawn_ = {span()[0], span()[1], begin()};
 }
 
 void Plot::draw_axes(cairo_t* on) {
@@ -222,11 +284,17 @@ void Plot::draw_axes(cairo_t* on) {
 }
 
 void Plot::draw_curve(cairo_t* on, const Curve& curve, double width, double strength) const {
+    cairo_save(on);
+    if (frame_.window > 0) {  // a part of the oldest column has left the box
+        cairo_rectangle(on, left_, 0, frame_.width - left_, frame_.height);
+        cairo_clip(on);
+    }
     cairo_new_path(on);
+    const double gone = (begin() - frame_.time[0]) * columns_a_second() - static_cast<double>(curve.first);
     for (std::size_t i = 0; i < curve.slices.size(); ++i) {
         const Slice& slice = curve.slices[i];
         if (slice.count == 0) continue;
-        const double x = left_ + static_cast<double>(i) + 0.5;
+        const double x = left_ + static_cast<double>(i) + 0.5 - gone;
         if (slice.after_gap) cairo_move_to(on, x, y_of(slice.first));
         for (const double value : {slice.first, slice.low, slice.high, slice.last})
             cairo_line_to(on, x, y_of(value));
@@ -235,6 +303,7 @@ void Plot::draw_curve(cairo_t* on, const Curve& curve, double width, double stre
     cairo_set_line_width(on, width);
     cairo_set_line_join(on, CAIRO_LINE_JOIN_ROUND);
     cairo_stroke(on);
+    cairo_restore(on);
 }
 
 void Plot::draw(cairo_t* on, int x, int y) {
@@ -243,7 +312,7 @@ void Plot::draw(cairo_t* on, int x, int y) {
     if (keeps_text(on)) {
         draw_axes(on);
     } else {
-        if (drawn_ != span()) keep_axes();
+        if (drawn_ != std::array{span()[0], span()[1], begin()}) keep_axes();
         cairo_set_source_surface(on, axes_.get(), 0, 0);
         cairo_paint(on);
     }

@@ -5,6 +5,7 @@
 
 #include <cairo.h>
 #include <array>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -44,7 +45,8 @@ std::unique_ptr<SidePlot> make_side_plot(const FilmedScene& scene, const FilmPlo
 struct PlotRange {
     std::string column, label;
     Dimension dimension = Dimension::number;
-    std::array<double, 2> time{0, 1};            // s, of the whole run
+    std::array<double, 2> time{0, 1};  // s, of the whole run
+    double window = 0;  // s: the axis shows the last so long and moves along with time; 0: the whole run
     std::optional<std::array<double, 2>> range;  // SI
     bool smooth = false;     // the line is the mean over the last period; the rows lie faint behind it
     bool from_zero = false;  // the values' axis begins at 0
@@ -81,8 +83,9 @@ class Plot final : public SidePlot {
         void add(double value);
     };
     struct Curve {
-        std::vector<Slice> slices;
-        bool gap = true;  // the last row has no value
+        std::deque<Slice> slices;
+        std::int64_t first = 0;  // column of the first slice; columns are counted from the run's beginning
+        bool gap = true;         // the last row has no value
     };
     struct TimeTick {
         double time;  // s
@@ -91,6 +94,11 @@ class Plot final : public SidePlot {
     std::vector<TimeTick> time_ticks() const;
     bool short_run() const { return frame_.time[1] < 0.1; }  // time is shown in ms
     const std::array<double, 2>& span() const { return shown_ ? *shown_ : limits_; }
+    // s: where the axis of time begins, and how long it is.
+    double begin() const;
+    double length() const;
+    double columns_a_second() const { return (right_ - left_) / length(); }
+    Slice& slice_at(Curve& curve, double time) const;
     void forget();
     // Adds a value to a curve. The curve breaks where there is no value.
     void add(Curve& curve, double time, double value);
@@ -106,9 +114,10 @@ class Plot final : public SidePlot {
     const Palette palette_;
     double left_, right_, top_, bottom_;  // pixels, of the box
     CairoSurface axes_;
-    std::optional<std::array<double, 2>> drawn_;  // limits of the axes as drawn
+    std::optional<std::array<double, 3>> drawn_;  // limits and beginning of the axes as drawn
     std::shared_ptr<const MeasureTable> table_;
     std::size_t rows_ = 0;
+    double newest_ = 0;                         // s: time of the last row
     std::deque<std::array<double, 2>> period_;  // time (in periods) and value of the last period's rows
     bool any_ = false;
     std::optional<std::string> unit_;             // of the values, the same in all pictures
