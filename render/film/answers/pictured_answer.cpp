@@ -94,7 +94,7 @@ FilmedScene scene_of_moment(FilmedScene scene, const Snapshot& snapshot, const A
     }
     if (!snapshot.contacts && needs_touches(shows)) shows.colour = {}, shows.highlight_if = {};
     if (!snapshot.worn) scene.film.look.walls.colour = FilmWalls::Colour::plain;
-    std::erase_if(scene.film.captions, [](const FilmCaption& caption) { return has_values(caption.words); });
+    scene.film.captions.clear();  // they tell the film's story, not the answer
     shows.trails = {};
     shows.highlighted = marks.grains;
     shows.force_chains = snapshot.contacts && marks.lines && !marks.grains.empty();

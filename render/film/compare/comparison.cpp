@@ -9,7 +9,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/measure/columns.hpp"
 #include "engine/scene/keys/keys.hpp"
+#include "engine/scene/text/units.hpp"
 #include "render/film/compare/comparison_words.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/film_request.hpp"
@@ -43,15 +45,18 @@ bool holds_for_all(const FilmCaption& caption) {
     return trimmed(caption.text, " \n").ends_with('?') || has_values(caption.words);
 }
 
-// If a key of a scene is varied, drops the scene's captions that state something: they were written for the
-// value in the scene file. Captions of the command line hold for all panels and stay.
-void leave_out_captions(const CompareRequest& what, Comparison& all) {
-    if (!what.vary) return;
-    const std::vector<Assignment> values = read_vary(*what.vary);
+// Whether captions of the scene that state something are left out: a key of the scene is varied, and they
+// were written for the value in the scene file. Captions of the command line hold for all panels and stay.
+bool leaves_out_captions(const CompareRequest& what) {
+    if (!what.vary) return false;
     const bool given = std::any_of(what.sets.begin(), what.sets.end(), [](const Assignment& set) {
         return set.key().rfind("film.caption", 0) == 0;
     });
-    if (given || !changes_the_scene(values.front())) return;
+    return !given && changes_the_scene(read_vary(*what.vary).front());
+}
+
+void leave_out_captions(const CompareRequest& what, Comparison& all) {
+    if (!leaves_out_captions(what)) return;
     const auto leave_out = [](FilmedScene& scene) {
         return std::erase_if(scene.film.captions,
                              [](const FilmCaption& caption) { return !holds_for_all(caption); });
@@ -62,7 +67,30 @@ void leave_out_captions(const CompareRequest& what, Comparison& all) {
         fmt::format("film.caption: captions that state something were written for one value of {} and are "
                     "left out, those that ask or tell the run's numbers stay; --set film.caption=[...] gives "
                     "the comparison its own",
-                    values.front().key()));
+                    read_vary(*what.vary).front().key()));
+}
+
+// The film does not stand still for captions that are left out. So that it has the length that is asked for,
+// the scenes are told a length with their holds.
+CompareRequest with_length_of_captions(CompareRequest what) {
+    const auto length = std::find_if(what.sets.rbegin(), what.sets.rend(),
+                                     [](const Assignment& set) { return set.key() == "film.length"; });
+    if (length == what.sets.rend() || !leaves_out_captions(what)) return what;
+    Assignments others = what.sets;
+    std::erase_if(others, [](const Assignment& set) { return set.key() == "film.length"; });
+    double held = 0;
+    for (const FilmCaption& caption :
+         read_filmed_scene(what.inputs.front(), others, measurable_in).film.captions)
+        if (!holds_for_all(caption)) held += caption.hold;
+    if (held == 0) return what;
+    std::string typed = length->value();
+    std::erase(typed, '"');
+    try {
+        length->text = fmt::format("film.length=\"{:.9g} s\"", parse_quantity(typed, Dimension::time) + held);
+    } catch (const UserError&) {
+        // The reader of the scene refuses it with its place.
+    }
+    return what;
 }
 
 void make_panels(const CompareRequest& what, Comparison& all) {
@@ -128,7 +156,8 @@ bool Comparison::all_recorded() const {
     return std::all_of(members.begin(), members.end(), [](const auto& member) { return member->archive(); });
 }
 
-Comparison read_comparison(const CompareRequest& what, const FilmRequest& film) {
+Comparison read_comparison(const CompareRequest& asked, const FilmRequest& film) {
+    const CompareRequest what = with_length_of_captions(asked);
     if (!what.at && !film.film && !film.frames)
         throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
     Comparison all;
