@@ -150,9 +150,85 @@ def run_script_of_blender(folder, parts, new):
     return tree
 
 
+class Vector(tuple):
+    """As much of Blender's vectors as bed.py uses."""
+    x, y, z = (property(lambda self, k=k: self[k]) for k in range(3))
+
+    def __add__(self, other):
+        return Vector(a + b for a, b in zip(self, other))
+
+    def __mul__(self, number):
+        return Vector(number * a for a in self)
+
+    __rmul__ = __mul__
+
+    def __neg__(self):
+        return -1 * self
+
+    def __sub__(self, other):
+        return self + -Vector(other)
+
+    def dot(self, other):
+        return sum(a * b for a, b in zip(self, other))
+
+    def cross(self, other):
+        (a, b, c), (d, e, f) = self, other
+        return Vector((b * f - c * e, c * d - a * f, a * e - b * d))
+
+    def normalized(self):
+        return self * (1 / math.sqrt(self.dot(self)))
+
+    def to_track_quat(self, *_):
+        return unittest.mock.MagicMock()
+
+
+class Wall:
+    """A mesh of triangles as Blender has it."""
+    def __init__(self, name):
+        self.name, self.polygons, self.materials = name, [], []
+
+    def from_pydata(self, vertices, _, triangles):
+        for corners in triangles:
+            a, b, c = (Vector(vertices[k]) for k in corners)
+            self.polygons.append(unittest.mock.Mock(center=(a + b + c) * (1 / 3), normal=(b - a).cross(c - a).normalized()))
+
+    def __getattr__(self, name):
+        return unittest.mock.MagicMock()
+
+
+def look_at_blenders_picture(folder):
+    """The walls between camera and bed are clear and all others solid, a ground lies below all, and a wide lamp shines."""
+    bpy, vectors, objects = unittest.mock.MagicMock(), unittest.mock.MagicMock(Vector=Vector), []
+    bpy.context.scene.frame_current = 0
+    tree = bpy.data.node_groups.new.return_value
+    tree.nodes.new.return_value.outputs.__iter__.side_effect = lambda: iter([unittest.mock.MagicMock()])
+    bpy.data.meshes.new.side_effect = Wall
+    bpy.data.objects.new.side_effect = lambda name, data: objects.append(unittest.mock.MagicMock(data=data)) or objects[-1]
+    with unittest.mock.patch.dict(sys.modules, {"bpy": bpy, "mathutils": vectors}), unittest.mock.patch.object(sys, "argv", ["blender"]):
+        script, world = folder / "r-blender/bed.py", {"__name__": "__main__"}
+        exec(compile(script.read_text(), str(script), "exec"), {"__file__": str(script)} | world)
+    head = json.loads((folder / "r-blender/bed.json").read_text())
+    walls = [one.data for one in objects if isinstance(one.data, Wall) and one.data.polygons]
+    expect(len(walls) == len(head["walls"]), f"Blender: {len(walls)} walls")
+    camera = next(one for one in objects if isinstance(one.location, Vector))
+    corners = [Vector(corner) for wall in head["walls"] for corner in wall["vertices"]]
+    middle = sum(corners, Vector((0, 0, 0))) * (1 / len(corners))
+    clear = [one for wall in walls for one in wall.polygons if one.material_index == 1]
+    solid = [one for wall in walls for one in wall.polygons if one.material_index == 0]
+    away = [(one.center - middle).dot(camera.location - middle) for one in clear]
+    expect(clear and min(away) > 0, f"Blender: {len(clear)} clear triangles, the farthest {min(away, default=0)}")
+    behind = [one for one in solid if (one.center - middle).dot(camera.location - middle) < 0]
+    expect(len(behind) >= 4, f"Blender: only {len(behind)} solid triangles behind the bed")
+    expect(any(call.args[1] == "AREA" for call in bpy.data.lights.new.call_args_list), "Blender: no wide lamp")
+    ground = bpy.ops.mesh.primitive_plane_add.call_args.kwargs["location"][2]
+    lowest = min(corner.z for corner in corners)
+    expect(lowest - 0.01 < ground <= lowest, f"Blender: the ground at {ground} m, the lowest wall at {lowest} m")
+
+
 def look_as_blender(folder, grains):
     if not module("numpy"):
         return
+    look_at_blenders_picture(folder)
     # Before 4.0 a tree has inputs and outputs, and since then an interface.
     run_script_of_blender(folder, ["inputs", "outputs", "nodes", "links"], lambda tree: tree.inputs.new.called and tree.outputs.new.called)
     tree = run_script_of_blender(folder, ["interface", "nodes", "links"], lambda tree: tree.interface.new_socket.called)
