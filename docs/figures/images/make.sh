@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Draws the pictures of this folder that show films (all but renderers.jpg and styles.png, which rendering.md makes).
+# Draws the pictures of this folder (all but renderers.jpg, which tests/bench/renderers.sh makes).
 #   docs/figures/images/make.sh [GRAINREEL] [FOLDER FOR RUNS]
-# Takes four minutes on two processors. Needs the command ffmpeg, to put pictures side by side.
+# Takes five minutes on two processors. Needs no other program: grainreel writes the GIF, beside.py joins pictures.
 set -euo pipefail
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../.." && pwd)
 grainreel=${1:-$root/build/release/grainreel} work=${2:-$root/output/images}
@@ -11,11 +11,11 @@ mkdir -p "$work"
 plain=(--set 'film.ghost=[]' --set 'film.trails={}' --set 'film.caption=[]')  # without what the scene's film explains
 
 run() { echo "grainreel $*"; "$grainreel" "$@" --quiet --force > /dev/null; }
-beside() { ffmpeg -v error -y -i "$work/$2" -i "$work/$3" -filter_complex hstack "$here/$1"; }
+beside() { "$here/../beside.py" "$here/$1" "${@:2}"; }
 
 # The front page's moving picture.
 run movie "$wedge" --out "$work/wedge" --no-film
-run render "$work/wedge" --every 1 --format gif --size 560x420 --set film.rate=12 --out "$work/gif"
+run render "$work/wedge" --every 1 --format gif --size 480x360 --set film.rate=10 --max-size 1500kB --out "$work/gif"
 cp "$work/gif/movie.gif" "$here/wedge.gif"
 
 # Colours and marks: rise, arrows, plots.
@@ -37,7 +37,7 @@ for span in 'exposure="1 s"' average=2; do
         --set 'film.plot=[]' --out "$work/${span%%=*}"
     cp "$(ls "$work/${span%%=*}"/frames/*.png | tail -1)" "$work/${span%%=*}.png"
 done
-beside spans.png exposure.png average.png
+beside spans.png "$work/exposure.png" "$work/average.png"
 
 # Four moments of an orbit.
 run movie "$nut" --no-film --duration 2s --out "$work/nut"
@@ -45,5 +45,21 @@ for quarter in 0 1 2 3; do
     run render "$work/nut" --at 2 --size 360x330 --set film.camera.azimuth=$((20 + 90 * quarter)) --set film.plot=[] \
         --set 'film.caption=[]' --set film.axes=true --out "$work/orbit$quarter.png"
 done
-ffmpeg -v error -y -i "$work/orbit0.png" -i "$work/orbit1.png" -i "$work/orbit2.png" -i "$work/orbit3.png" \
-    -filter_complex hstack=inputs=4 "$here/orbit.png"
+beside orbit.png "$work"/orbit[0-3].png
+
+# Both ends of the stroke, with the outline at rest.
+for moment in 1.017 1.05; do  # a quarter and three quarters of a period of 15 Hz
+    run render "$work/nut" --at $moment --size 480x420 --set film.wall_ghost=true --set film.exaggerate=2 \
+        --set 'film.plot=[]' --set 'film.caption=[]' --out "$work/ghost$moment.png"
+done
+beside wall_ghost.png "$work"/ghost*.png
+
+# The front page's drum.
+run movie "$root/scenes/drum_mixing.toml" --no-film --out "$work/drum"
+run render "$work/drum" --at 1.9 --size 800x500 --out "$here/drum.png"
+
+# One bed in three styles.
+for style in studio flat dark; do
+    run bench render --grains 3000 --size 640x720 --style $style --out "$work/$style"
+done
+beside styles.png "$work"/{studio,flat,dark}/*.png
