@@ -183,7 +183,7 @@ TEST_F(ForeignAnswers, QuestionsAboutMassesNeedADensity) {
     }
     EXPECT_EQ(timed({"inspect", "bed.dump"}).status, 0);
     const Ended drawn =
-        timed({"render", "bed.dump", "--set", "film.plot={column=\"kinetic_J\"}", "--out", "film"});
+        timed({"render", "bed.dump", "--set", "film.plot=[{y=\"kinetic_J\"}]", "--out", "film"});
     EXPECT_EQ(drawn.status, 2);
     EXPECT_THAT(drawn.err, tells({"kinetic_J", "needs masses", "--density"}));
     expect_refused({"inspect", "bed.dump", "--measure", "kinetic_J"}, "--over-time");
