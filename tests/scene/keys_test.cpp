@@ -73,7 +73,7 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
     const std::string staged = wedge_text + "[[drive.stage]]\nfrom = 1\n";
     const std::string captioned = wedge_text + "[[film.caption]]\nfrom = 1\ntext = \"a\"\n";
     const std::string plotted = wedge_text + "[[film.plot]]\ny = \"lacey\"\n";
-    const std::string guttered = wedge_text + "[film.gutters]\nplace = \"sides\"\n";
+    const std::string placed = wedge_text + "[film.gutters]\nplace = \"sides\"\n";
     const MeshScenes files;
     const std::string meshed = exact +
                                "[[exit]]\nlow = [-2, -2, -2]\nhigh = [2, 2, -1]\n[[mesh]]\nfile = \"" +
@@ -86,9 +86,9 @@ TEST(Keys, DocumentedDefaultsAreTheDefaults) {
         for (Vec3& corner : triangle) corner.z() = 0.1;
     const std::string shelved =
         wedge_text + "[[mesh]]\nfile = \"" + files.write("shelf.stl", shelf).string() + "\"\n";
-    const std::string cases[] = {wedge_text, box,    locked, motion,  from_file, exact,     layers,
-                                 fields,     outlet, rough,  fed,     staged,    captioned, plotted,
-                                 guttered,   meshed, turned, turning, shelved};
+    const std::string cases[] = {wedge_text, box,    locked,  motion,  from_file, exact,     layers,
+                                 fields,     outlet, rough,   fed,     staged,    captioned, plotted,
+                                 meshed,     turned, turning, shelved, placed};
     const auto resolved = [](const FilmedScene& scene) { return resolved_scene(scene, make_plan(scene)); };
     std::map<const std::string*, std::string> plain;
     for (const std::string& text : cases) plain[&text] = resolved(read_text(text));

@@ -28,7 +28,7 @@ rm -f "$here/inspect.png"
 
 # Three drives side by side.
 for g in 0.9 2 4; do run movie "$wedge" --duration 2s --no-film --set drive.g_level=$g --out "$work/g$g"; done
-run compare "$work/g0.9" "$work/g2" "$work/g4" --size 960x540 --format png --out "$work/compare"
+run compare "$work/g0.9" "$work/g2" "$work/g4" --size 960x540 --format png --set "film.caption=[]" --out "$work/compare"
 cp "$(ls "$work"/compare/frames/*.png | tail -1)" "$here/compare.png"
 
 # A bed exposed for a second, and the mean of two periods.

@@ -79,11 +79,12 @@ bool CompareJob::draw_still(Shots& frames) {
     const Instant moment = all_.pictures.instants.back();
     stage_ = Stopwatch();
     SideBySide drawer(all_.panels, all_.film.film, film_.threads().raster, film_.request().gl);
-    if (!next(frames)) return false;
-    if (all_.pictures.instants.size() > 1) {
-        drawer.start_from(frames);
+    for (std::size_t earlier = 0; earlier + 1 < all_.pictures.instants.size(); ++earlier) {
         if (!next(frames)) return false;
+        if (earlier == 0) drawer.start_from(frames);
+        drawer.remember(frames);
     }
+    if (!next(frames)) return false;
     if (const std::string note = drawer.gl_note(); !note.empty()) desk_.listener.info(note);
     desk_.record.gl = drawer.gl_description();
     const auto segment = static_cast<std::size_t>(moment.segment);

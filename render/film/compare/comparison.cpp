@@ -228,6 +228,33 @@ void take_moments_of_record(Comparison& all) {
     }
 }
 
+// s: how long the trails are that the panels draw; 0 without trails.
+double trails_of(const Comparison& all) {
+    double longest = 0;
+    for (const auto& member : all.members) {
+        const FilmTrails& trails = member->scene().film.shows.trails;
+        if (trails.wanted()) longest = std::max(longest, trails.duration);
+    }
+    return longest;
+}
+
+// Puts the film's moments before the still's one, back to where its trails begin, if all panels have them.
+void take_moments_of_trails(const std::vector<Instant>& film, Comparison& all) {
+    constexpr double room = 1.001;
+    const double longest = trails_of(all);
+    Pictures with_trails = all.pictures;
+    std::vector<Instant>& instants = with_trails.instants;
+    const Instant first = instants.front(), last = instants.back();
+    const bool from_start = instants.size() > 1;
+    for (const Instant& one : film)
+        if (one.time < last.time - hair && one.time >= last.time - room * longest &&
+            (!from_start || one.time > first.time + hair))
+            instants.insert(instants.end() - 1, {one.time, last.segment});
+    if (std::all_of(all.members.begin(), all.members.end(),
+                    [&](const auto& member) { return has_all(*member, with_trails); }))
+        all.pictures = std::move(with_trails);
+}
+
 // Takes the one moment of a still. It is shown even if the segment there is locked to a phase and the moment
 // has another phase.
 void take_one(double at, Comparison& all) {
@@ -242,6 +269,7 @@ void take_one(double at, Comparison& all) {
                         at, common.from, common.to));
     at = std::clamp(at, common.from, common.to);
     std::vector<Instant>& instants = all.pictures.instants;
+    const std::vector<Instant> film = instants;
     const auto after = std::upper_bound(instants.begin(), instants.end(), at + hair,
                                         [](double time, const Instant& one) { return time < one.time; });
     const std::ptrdiff_t place = std::max<std::ptrdiff_t>(0, after - instants.begin() - 1);
@@ -256,6 +284,7 @@ void take_one(double at, Comparison& all) {
     instants = {{at, segment}};
     if (from_start) instants.insert(instants.begin(), {first.time, segment});
     for (FilmSegment& one : all.pictures.segments) one.kind = FilmSegment::Kind::motion;
+    if (trails_of(all) > 0) take_moments_of_trails(film, all);
     for (const auto& member : all.members) {
         if (has_all(*member, all.pictures)) continue;
         const double shown = member->source().moments(all.pictures).back().time;

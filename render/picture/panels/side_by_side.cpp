@@ -261,6 +261,10 @@ void SideBySide::start_from(const std::vector<ShotPtr>& frames) {
     for (std::size_t i = 0; i < frames.size(); ++i) impl_->renderers.at(i)->start_from(*frames[i]);
 }
 
+void SideBySide::remember(const std::vector<ShotPtr>& frames) {
+    for (std::size_t i = 0; i < frames.size(); ++i) impl_->renderers.at(i)->remember(*frames[i]);
+}
+
 const Picture& SideBySide::draw(const std::vector<ShotPtr>& frames, std::size_t segment, std::size_t clock,
                                 double film_time) {
     Impl& m = *impl_;

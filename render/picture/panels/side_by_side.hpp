@@ -36,6 +36,8 @@ class SideBySide {
 
     // The pictures count heights at the start from these frames, and not from the first that is drawn.
     void start_from(const std::vector<ShotPtr>& frames);
+    // Takes frames that are not drawn but leave trails.
+    void remember(const std::vector<ShotPtr>& frames);
 
     // Draws the same on a page of PDF, its words as text.
     void draw_page(PdfPage& page, const std::vector<ShotPtr>& frames, std::size_t segment, std::size_t clock,
