@@ -190,14 +190,13 @@ TEST(Plots, ALabelMaySayItsUnit) {
     const auto drawn = [&](const std::string& label, double expected) {
         PlotRange size = any_plot();
         FilmPlot shown;
-        shown.column = "outflow_kg";
+        shown.column = size.column;  // of which no range is known
         shown.label = label;
         shown.dimension = Dimension::mass;
         PlotRange frame = plot_frame(scene, shown);
         frame.width = size.width;
         frame.height = size.height;
         frame.expected = expected;
-        frame.column = size.column;
         Plot plot(frame, type_scale(scene.film), make_palette(scene.film.background));
         plot.take(frame_with_rows({{0, 0}, {1, 2e-4}}));
         const CairoSurface surface = blank_surface({0, 0, frame.width, frame.height}, {1, 1, 1});

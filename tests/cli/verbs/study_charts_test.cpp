@@ -63,9 +63,9 @@ TEST_F(StudyVerb, WordsMayStandAlongX) {
         EXPECT_EQ(bad.status, 2) << key;
         return bad.err;
     };
-    EXPECT_THAT(refused("logarithmic = \"x\"\n"), tells({"study.toml:12:1", "logarithmic", "run.accuracy"}));
-    EXPECT_THAT(refused("x_range = [0, 1]\n"), tells({"study.toml:12:1", "x_range", "run.accuracy"}));
-    EXPECT_THAT(refused("x_per = 2\n"), tells({"study.toml:12:1", "x_per", "run.accuracy"}));
+    EXPECT_THAT(refused("logarithmic = \"x\"\n"), tells({"study.toml:13:1", "logarithmic", "run.accuracy"}));
+    EXPECT_THAT(refused("x_range = [0, 1]\n"), tells({"study.toml:13:1", "x_range", "x has words"}));
+    EXPECT_THAT(refused("x_per = 2\n"), tells({"study.toml:13:1", "x_per", "x has words"}));
 }
 
 // Nothing reaches the threshold: no chart, and words in its place.
