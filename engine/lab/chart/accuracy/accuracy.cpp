@@ -168,9 +168,7 @@ bool run_accuracy(const ChartRequest& request, const ChartWatcher& watcher) {
     const std::size_t pieces =
         convergence_pieces(request.quick) + gas_drift_pieces(request.quick) + spin_pieces(request.quick) +
         methods().size() * restitutions(request.quick).size() * force_counts(request.quick).size() +
-        bed_settings(request.quick).size() * (request.quick ? 2 : 5) + bed_steps_pieces(request.quick);
-    ResultTable steps(request.folder / "steps.csv",
-                      "law,steps,seed,height_m,temperature_m2s2,contacts,mixing", 3);
+        bed_settings(request.quick).size() * (request.quick ? 2 : 5);
     ChartWork work(watcher, pieces);
     if (!run_spins(request.quick, spins, work) || !run_contacts(request.quick, contacts, work) ||
         !run_convergence(request.quick, convergence, work) || !run_gas_drift(request.quick, gases, work) ||
@@ -181,7 +179,7 @@ bool run_accuracy(const ChartRequest& request, const ChartWatcher& watcher) {
 }
 
 std::string accuracy_drawing() {
-    return R"(# Draws contacts.csv, convergence.csv, spins.csv, steps.csv, gas.csv and bed.csv, and the other engines of peers.csv (made by
+    return R"(# Draws contacts.csv, convergence.csv, spins.csv, gas.csv and bed.csv, and the other engines of peers.csv (made by
 # tests/peers/impacts.sh) where that lies beside them: gnuplot accuracy.gp
 set datafile separator ','
 set style data linespoints

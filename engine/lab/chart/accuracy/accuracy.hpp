@@ -1,8 +1,7 @@
 // `grainreel chart accuracy`: the error of a run against its cost, when one setting at a time is changed. The
-// chart has six tables with one result in each row: contacts.csv (single contacts), convergence.csv
-// (tangential laws), spins.csv (oblique impacts as planned), gas.csv (elastic and nearly elastic gases),
-// bed.csv (the small bed, every setting with every seed) and steps.csv (the same bed, every law with several
-// numbers of steps). Another, differences.csv, is computed from bed.csv.
+// chart has five tables with one result in each row: contacts.csv (single contacts), convergence.csv
+// (tangential laws), spins.csv (oblique impacts as planned), gas.csv (elastic and nearly elastic gases) and
+// bed.csv (the small bed, every setting with every seed). Another, differences.csv, is computed from bed.csv.
 #pragma once
 
 #include "engine/lab/chart/chart.hpp"
@@ -20,11 +19,6 @@ std::size_t convergence_pieces(bool quick);
 
 // Commands for gnuplot that draw convergence.csv into `convergence`, as svg or png by the variable `form`.
 const char* convergence_drawing();
-
-// What the number of steps in a contact changes in the small bed, for each law. Adds one row for each law,
-// number and seed. False when the watcher stopped it.
-bool run_bed_steps(bool quick, ResultTable& table, ChartWork& work);
-std::size_t bed_steps_pieces(bool quick);
 
 // Commands for gnuplot that draw the errors of the restitution, of the spin and of the bed against the cost,
 // for the laws as planned and for other engines at the steps that they advise, into `speed`.

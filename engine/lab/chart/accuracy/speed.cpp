@@ -1,59 +1,8 @@
-// Speed against accuracy at one look: what the number of steps in a contact changes in a bed, and the picture
-// that sets it beside the errors of single contacts (contacts.csv) and the other engines' own steps.
-#include <fmt/format.h>
-
-#include "engine/base/error.hpp"
+// Speed against accuracy at one look: the errors of single contacts (contacts.csv) and of a bed
+// (differences.csv) against the cost, beside the other engines' own steps.
 #include "engine/lab/chart/accuracy/accuracy.hpp"
-#include "engine/lab/chart/small_bed.hpp"
 
 namespace grainreel {
-namespace {
-
-struct BedLaw {
-    const char* name;  // as in contacts.csv
-    const char* set;
-};
-constexpr BedLaw bed_laws[] = {{"with corrections", "contact.law=walton-braun"},
-                               {"spring-dashpot", "contact.law=spring-dashpot"},
-                               {"Hertz-Mindlin", "contact.law=hertz"}};
-
-// The largest number is the reference of its law.
-std::vector<int> numbers_of_steps(bool quick) {
-    if (quick) return {8, 12, 45};
-    return {6, 8, 12, 20, 45, 160};
-}
-int seeds(bool quick) {
-    return quick ? 1 : 4;
-}
-
-}  // namespace
-
-std::size_t bed_steps_pieces(bool quick) {
-    return std::size(bed_laws) * numbers_of_steps(quick).size() * static_cast<std::size_t>(seeds(quick));
-}
-
-bool run_bed_steps(bool quick, ResultTable& table, ChartWork& work) {
-    for (int seed = 1; seed <= seeds(quick); ++seed) {
-        for (const BedLaw& law : bed_laws) {
-            for (const int steps : numbers_of_steps(quick)) {
-                if (!work.next(fmt::format("bed, {}, {} steps, seed {}", law.name, steps, seed)))
-                    return false;
-                if (table.has({law.name, number(steps), number(seed)})) continue;
-                const BedSetting setting{law.name, {law.set, fmt::format("run.steps_per_contact={}", steps)}};
-                try {
-                    const auto r = run_bed(setting, static_cast<std::uint64_t>(seed), quick ? 0.5 : 2.0,
-                                           [&] { return work.goes_on(); });
-                    if (!r) return false;
-                    table.add({law.name, number(steps), number(seed), number(r->height),
-                               number(r->temperature), number(r->contacts), number(r->mixing)});
-                } catch (const RunError&) {  // a run that the health check stopped is a result too
-                    table.add({law.name, number(steps), number(seed), "nan", "nan", "nan", "nan"});
-                }
-            }
-        }
-    }
-    return true;
-}
 
 // LAMMPS' examples take 36 steps in a contact (stiffness 2e5 m g/d and 1e-4 of its time). LIGGGHTS advises 10
 // to 30 % of the Rayleigh time, which are 26 to 9 steps for the grains of the charts with E = 5 MPa. Its
@@ -73,8 +22,8 @@ const char* speed_drawing() {
     cost(m) = real(system(sprintf("awk -F, '$1==\"%s\" && $2==\"restitution\" && $3==0.9 && $4==12 {print $5/$4}' contacts.csv", m)))
     at(m, error, n) = sprintf("< awk -F, '$1==\"%s\" && $2==\"%s\" && $3==0.9 && $4%s {print $4\",\"$5\",\"$6}' contacts.csv", m, error, n)
     near(n) = n==45 ? '==40' : '=='.n
-    # Mean over the seeds of a column of steps.csv, less that with most steps, in per cent; and its error.
-    bed(m, column) = sprintf("< awk -F, '$1==\"%s\" {n[$2]++; s[$2]+=$%d; q[$2]+=$%d^2; if ($2+0>top) top=$2+0} END {r=s[top]/n[top]; for (k in n) if (k<top) {m=s[k]/n[k]; v=(q[k]/n[k]-m^2)/(n[k]>1?n[k]-1:1); print k\",\"100*(m/r-1)\",\"100*sqrt(v>0?v:0)/r*sqrt(2)}}' steps.csv | sort -g", m, column, column)
+    # Settings of the bed, as steps in a contact.
+    bed(column) = sprintf("< awk -F, '$1==\"step x 2\" {n=6} $1==\"default\" {n=12} $1==\"step x 0.5\" {n=24} n {print n\",\"$%d\",\"$%d; n=0}' differences.csv | sort -g", column, column+1)
     set multiplot layout 3,1
     set xrange [60:6000]
     unset xlabel
@@ -95,11 +44,14 @@ const char* speed_drawing() {
          at('Hertz-Mindlin', 'spin', '<=28') using ($1>=8 ? $1*57 : NaN):3 with lines lw 6 lc rgb '#cc79a7' notitle
     unset logscale y
     set format y '%g'
-    set xlabel 'cost of a contact, ns of one thread (forces in a contact x time of one force)'
+    set xlabel 'cost of a contact: its forces x ns of one thread for a force'
     set ylabel 'difference, %'
-    set title "Mean height of a shaken bed, against 160 steps a contact"
-    set yrange [-4:4]
-    plot for [k=1:3] bed(word(shown,k), 4) using ($1*cost(word(shown,k))):2:3 with yerrorlines lw 2 pt 6 ps 0.7 lc rgb colour(k) notitle, 0 lc 'gray50' lw 1 notitle
+    set title 'A shaken bed, default law, against steps of an eighth'
+    set yrange [-6:6]
+    set key at screen 0.995, 0.28 right top width -2
+    c = cost('with corrections')
+    plot bed(3) using ($1*c):2:3 with yerrorlines lw 2 pt 7 ps 0.9 lc rgb colour(1) title 'mean height', \
+         bed(5) using ($1*c*1.03):2:3 with yerrorlines lw 2 dt 2 pt 6 ps 0.9 lc rgb colour(1) title 'granular temperature', 0 lc 'gray50' lw 1 notitle
     unset multiplot
     unset title
     set lmargin
