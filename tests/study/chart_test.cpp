@@ -207,7 +207,7 @@ TEST(StudyCaptions, SayOnlyWhatIsThere) {
     const StudyChart& chart = made.study.charts[0];
     const auto series = chart_series(made.study, made.members, made.results, chart);
     const std::string caption = chart_caption(made.study, chart, series);
-    EXPECT_THAT(caption, tells({"n = 2", "95 \\%", "rings", "$\\Gamma$"}));
+    EXPECT_THAT(caption, tells({"$\\Gamma$", "n = 2", "95 \\%", "rings"}));
     EXPECT_THAT(caption, Not(HasSubstr("Open symbols")));
     EXPECT_THAT(chart_commands(made.study, chart, series, false), HasSubstr("title 'single seeds'"));
 }

@@ -118,7 +118,7 @@ TEST(StudyParametersTable, TellsWhatDiffersAndWhatDoesNot) {
     EXPECT_THAT(table, testing::StartsWith("key,unit,value,1,2,meaning\nsetting,,,Γ = 2.5,Γ = 4,\n"
                                            "drive.g_level,,,2.5,4,\nprogram.version,"));
     EXPECT_THAT(table, HasSubstr("\ndrive.frequency,Hz,20,,,"));
-    EXPECT_THAT(table, testing::AllOf(HasSubstr("\n\"contact.pair[big, small].stiffness\",N/m,,"),
+    EXPECT_THAT(table, testing::AllOf(HasSubstr("\n\"contact.pair[small, big].stiffness\",N/m,,"),
                                       HasSubstr("\ndrive.amplitude,m,,"), HasSubstr("\nrun.step,s,"),
                                       HasSubstr("\nrun.accuracy,,"), HasSubstr("\nspecies.big.diameter,m,")));
     const Methods methods = parameters.methods(study);
