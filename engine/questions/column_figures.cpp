@@ -114,9 +114,10 @@ Answer by_period(const StoredRun& run, const ColumnsRequest& request) {
     const Scene& scene = run.known_scene();
     const double period = steady_period(scene);
     if (!(period > 0))
-        throw UserError(scene.drive.present
-                            ? "the drive changes, so its periods have no one length; give --window in place of --by"
-                            : "the run has no drive, so there are no periods; give --window in place of --by");
+        throw UserError(
+            scene.drive.present
+                ? "the drive changes, so its periods have no one length; give --window in place of --by"
+                : "the run has no drive, so there are no periods; give --window in place of --by");
     AnswerTable table{"by_period",
                       "Means of each period of the drive",
                       {{"period", Dimension::number, "from 0"},

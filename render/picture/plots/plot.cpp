@@ -65,8 +65,8 @@ double highest_g_level(const Scene& scene) {
     return highest;
 }
 
-// The whole axis of a column that has a known bound, which it reaches in the end. Such an axis is the same from
-// the first picture on.
+// The whole axis of a column that has a known bound, which it reaches in the end. Such an axis is the same
+// from the first picture on.
 std::optional<std::array<double, 2>> known_range(const Scene& scene, const std::string& column) {
     double most = 0;
     if (column == "outflow_kg") most = total_mass(scene);
