@@ -59,7 +59,7 @@ TEST_F(MovieProgram, MeansAndExposuresLeaveTheRunAlone) {
     for (const char* file : {"trajectory.nc", "measures.csv", "final.csv"})
         EXPECT_TRUE(text_of(here / "spans" / file) == text_of(here / "plain" / file)) << file;
     EXPECT_THAT(text_of(here / "spans/frames/000001.png"), HasSubstr("mean of 2 periods"));
-    EXPECT_THAT(text_of(here / "spans/frames/000004.png"), HasSubstr("exposed for 0.04 s"));
+    EXPECT_THAT(text_of(here / "spans/frames/000004.png"), HasSubstr("exposed for 40 ms"));
 }
 
 TEST_F(MovieProgram, WritesTheFilmAndTheNumbers) {
