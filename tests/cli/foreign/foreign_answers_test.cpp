@@ -182,11 +182,11 @@ TEST_F(ForeignAnswers, QuestionsAboutMassesNeedADensity) {
         EXPECT_EQ(told.status, 0) << told.err;
     }
     EXPECT_EQ(timed({"inspect", "bed.dump"}).status, 0);
+    expect_refused({"inspect", "bed.dump", "--measure", "kinetic_J"}, "--over-time");
     const Ended drawn =
         timed({"render", "bed.dump", "--set", "film.plot=[{y=\"kinetic_J\"}]", "--out", "film"});
     EXPECT_EQ(drawn.status, 2);
     EXPECT_THAT(drawn.err, tells({"kinetic_J", "needs masses", "--density"}));
-    expect_refused({"inspect", "bed.dump", "--measure", "kinetic_J"}, "--over-time");
 }
 
 // The runs of a folder are named; the folder of a film, which holds tables too, is no folder of another
