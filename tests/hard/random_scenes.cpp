@@ -347,7 +347,7 @@ Outcome random_scene(Dice& dice, const fs::path& here) {
 
 Group random_scenes() {
     return {"random scenes", 300,
-            [](int, Dice& dice, const fs::path& here) { return random_scene(dice, here); }, 10, 10};
+            [](int, Dice& dice, const fs::path& here) { return random_scene(dice, here); }, 10, 5};
 }
 
 }  // namespace grainreel::hard

@@ -8,7 +8,7 @@ messages of engine/ and render/. Where a command line names its program, the opt
 of a script for `python3 tests/x.py`. The options of other people's programs are not checked. An option without a command must
 be one of some verb or some script of ours.
 Keys: each `table.key` of a table of scene files, in code of the documentation and in the program's help.
-Tests: docs/reliability.md names a test for each promise, as `ctest -R NAME` or `Suite.Name`, or a script by its path.
+Tests: docs/reliability.md names a test for each promise, as `ctest -R NAME` or `Suite.Name`, or a script by its path. tests/turns.txt names tests of ctest.
 """
 import concurrent.futures
 import pathlib
@@ -181,9 +181,18 @@ def faults_of_tests():
         yield f"docs/reliability.md names {count} tests"
 
 
+def faults_of_turns(build):
+    """The tests that tests/turns.txt names and ctest does not know."""
+    told = subprocess.run(["ctest", "--test-dir", build, "-N"], capture_output=True, text=True, check=True).stdout
+    known = set(re.findall(r"^ *Test +#\d+: (\S+)", told, re.M))
+    for name in re.findall(r"^\d (\S+)", (ROOT / "tests/turns.txt").read_text(), re.M):
+        if name not in known:
+            yield f"tests/turns.txt: there is no test {name}"
+
+
 def main():
     names = Names(sys.argv[1])
-    faults = [*faults_of_messages(names), *faults_of_scenes(names), *faults_of_tests()]
+    faults = [*faults_of_messages(names), *faults_of_scenes(names), *faults_of_tests(), *faults_of_turns(pathlib.Path(sys.argv[1]).parent)]
     for file in documents():
         text = file.read_text()
         place = str(file.relative_to(ROOT))
