@@ -320,17 +320,15 @@ Estimate slope_estimate(const std::vector<double>& times, const std::vector<doub
 std::shared_ptr<const MeasureTable> table_with(const StoredRun& run, const std::string& column) {
     const std::shared_ptr<const MeasureTable> table = run.measures();
     if (table == nullptr)
-        throw UserError(
-            fmt::format("{}: has no measures.csv with rows; ask a run's folder", run.path().string()));
+        throw UserError("{}: has no measures.csv with rows; ask a run's folder", run.path().string());
     const std::vector<std::string>& columns = table->columns();
     if (!table->find(column)) {
         const auto meant = nearest_name(column, columns);
-        throw UserError(fmt::format("'{}' is no column of measures.csv; {}", column,
-                                    meant ? fmt::format("did you mean '{}'?", *meant)
-                                          : fmt::format("there are {}", fmt::join(columns, ", "))));
+        throw UserError("'{}' is no column of measures.csv; {}", column,
+                        meant ? fmt::format("did you mean '{}'?", *meant)
+                              : fmt::format("there are {}", fmt::join(columns, ", ")));
     }
-    if (!table->find("time_s"))
-        throw UserError(fmt::format("{}: has no column time_s", run.name_of("measures.csv")));
+    if (!table->find("time_s")) throw UserError("{}: has no column time_s", run.name_of("measures.csv"));
     return table;
 }
 

@@ -48,12 +48,8 @@ std::size_t checkpoints_in(const fs::path& run) {
     return count;
 }
 
-// Kills the program a given time after its run has so many checkpoints. Returns whether the program was still
-// running.
-bool kill_at(std::size_t checkpoints, const Words& words, const fs::path& here,
-             std::chrono::milliseconds later) {
-    test::Program program(words, limits(here));
-    test::wait_until(program, [&] { return checkpoints_in(here / "run") >= checkpoints; });
+// Kills a program that still runs after that time. Returns whether it did.
+bool kill_later(test::Program& program, std::chrono::milliseconds later) {
     const auto end = std::chrono::steady_clock::now() + later;
     while (program.running() && std::chrono::steady_clock::now() < end)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -63,16 +59,17 @@ bool kill_at(std::size_t checkpoints, const Words& words, const fs::path& here,
     return killed;
 }
 
-// Kills the program after a while, unless it has ended by itself. Returns whether it was killed.
-bool kill_after(const Words& words, const fs::path& here, std::chrono::milliseconds while_) {
+// Kills the program a given time after its run has so many checkpoints.
+bool kill_at(std::size_t checkpoints, const Words& words, const fs::path& here,
+             std::chrono::milliseconds later) {
     test::Program program(words, limits(here));
-    const auto end = std::chrono::steady_clock::now() + while_;
-    while (program.running() && std::chrono::steady_clock::now() < end)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    const bool killed = program.running();
-    if (killed) program.send(SIGKILL);
-    program.wait();
-    return killed;
+    test::wait_until(program, [&] { return checkpoints_in(here / "run") >= checkpoints; });
+    return kill_later(program, later);
+}
+
+bool kill_after(const Words& words, const fs::path& here, std::chrono::milliseconds later) {
+    test::Program program(words, limits(here));
+    return kill_later(program, later);
 }
 
 std::string engine_hash(const fs::path& run) {

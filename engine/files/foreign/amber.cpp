@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <string_view>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/netcdf/hdf5_trial.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
@@ -24,14 +24,13 @@ namespace grainreel {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double pi = 3.14159265358979323846;
 
 // The library's fill values by the number of a type; NaN for types that are not numbers.
 double usual_fill(int type) {
-    constexpr std::array<double, 12> fills{nothing,
+    constexpr std::array<double, 12> fills{kUnknown,
                                            NC_FILL_BYTE,
-                                           nothing,
+                                           kUnknown,
                                            NC_FILL_SHORT,
                                            NC_FILL_INT,
                                            NC_FILL_FLOAT,
@@ -41,7 +40,7 @@ double usual_fill(int type) {
                                            NC_FILL_UINT,
                                            static_cast<double>(NC_FILL_INT64),
                                            static_cast<double>(NC_FILL_UINT64)};
-    return type >= 0 && type < static_cast<int>(fills.size()) ? fills[type] : nothing;
+    return type >= 0 && type < static_cast<int>(fills.size()) ? fills[type] : kUnknown;
 }
 
 // A variable of numbers. per_frame and per_grain tell whether it has the dimensions of frames and of grains;
@@ -68,9 +67,6 @@ class AmberFile : public RawFile {
     // Throws UserError when the file cannot be read or has no places of grains.
     explicit AmberFile(const std::filesystem::path& file);
 
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
-    std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t index) const override;
     // Reads a frame for a caller that already holds the lock.
     RawFrame frame_at(std::size_t index) const;
@@ -98,19 +94,15 @@ class AmberFile : public RawFile {
     void find_units();
     bool too_dense_for_atoms() const;
 
-    std::filesystem::path file_;
     NetcdfFile netcdf_;
     std::size_t frames_ = 1;    // number of whole frames in the file
     std::size_t declared_ = 1;  // number of frames that its header says
     std::size_t grains_ = 0;    // number of places for grains in a frame
     std::size_t places_ = 0;    // which variable has them
     std::vector<AmberVariable> variables_;
-    RawFacts facts_;
-    std::vector<RawMoment> moments_;
-    std::vector<std::string> news_;
 };
 
-AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), netcdf_(NetcdfFile::open_any(file)) {
+AmberFile::AmberFile(const std::filesystem::path& file) : RawFile(file), netcdf_(NetcdfFile::open_any(file)) {
     facts_.format = "AMBER NetCDF";
     facts_.program = program_of(netcdf_);
     if (!netcdf_.has_variable("coordinates") && !netcdf_.has_variable("unwrapped_coordinates"))
@@ -137,8 +129,8 @@ AmberFile::AmberFile(const std::filesystem::path& file) : file_(file), netcdf_(N
 
 // what: what the file lacks of the AMBER convention.
 void AmberFile::refuse_as_not_amber(const char* what) const {
-    throw UserError(fmt::format("{}: is {}, but {}, as the AMBER convention says", file_.string(),
-                                is_hdf5(file_) ? "HDF5" : "NetCDF", what));
+    throw UserError("{}: is {}, but {}, as the AMBER convention says", file_.string(),
+                    is_hdf5(file_) ? "HDF5" : "NetCDF", what);
 }
 
 void AmberFile::find_dimensions() {
@@ -152,9 +144,8 @@ void AmberFile::find_dimensions() {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(file_, error);
     if (error || grains_ > size * most_packing || frames_ > size * most_packing)
-        throw UserError(
-            fmt::format("{}: says that it has {} frames of {} grains, which its {} bytes cannot hold",
-                        file_.string(), frames_, grains_, error ? 0 : size));
+        throw UserError("{}: says that it has {} frames of {} grains, which its {} bytes cannot hold",
+                        file_.string(), frames_, grains_, error ? 0 : size);
 }
 
 void AmberFile::find_variables() {
@@ -221,16 +212,16 @@ std::vector<double> AmberFile::numbers(const AmberVariable& variable, std::size_
 // Tells of what lies behind the frames that the header counts.
 void AmberFile::tell_of_length() {
     if (!netcdf_.has_dimension("frame") || !netcdf_.has_records()) return;
-    const std::size_t there = netcdf_.whole_records();
-    if (there > declared_)
+    const std::size_t room = netcdf_.whole_records();
+    if (room > declared_)
         news_.push_back(
             fmt::format("{}: its header counts {}, and there is room for {}; those behind are left "
                         "out. Was it still "
                         "being written, or is it damaged?",
-                        file_.string(), counted(declared_, "frame"), there));
+                        file_.string(), counted(declared_, "frame"), room));
     constexpr std::uint64_t padding = 4;  // bytes
     const std::uint64_t behind = netcdf_.bytes_behind_records();
-    if (there == declared_ && behind >= padding)
+    if (room == declared_ && behind >= padding)
         news_.push_back(
             fmt::format("{}: {} bytes lie behind its {} and belong to none; was another frame being "
                         "written, or is it damaged?",
@@ -241,17 +232,16 @@ void AmberFile::tell_of_length() {
 // counted any.
 void AmberFile::refuse_without_frames() const {
     const std::string name = file_.string();
-    if (declared_ > 0)
-        throw UserError(fmt::format("{}: has no frame that is whole; was it copied to the end?", name));
+    if (declared_ > 0) throw UserError("{}: has no frame that is whole; was it copied to the end?", name);
     const std::size_t behind = netcdf_.whole_records();
-    if (behind == 0) throw UserError(fmt::format("{}: has no frame", name));
+    if (behind == 0) throw UserError("{}: has no frame", name);
     std::string count;
     for (int k = netcdf_.header().count_bytes - 1; k >= 0; --k)
         count += fmt::format("\\{:03o}", behind >> 8 * k & 0xffU);
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: its header counts no frame, and behind it there is room for {}; if the program that "
         "wrote it was stopped, put this count there: printf '{}' | dd of={} bs=1 seek=4 conv=notrunc",
-        name, behind, count, name));
+        name, behind, count, name);
 }
 
 // Number of grains in a frame. The places after them have the fill value.
@@ -264,8 +254,7 @@ std::size_t AmberFile::grains_of(std::size_t frame) const {
     while (grains > 0 && values[(grains - 1) * width] == fill) --grains;
     for (std::size_t i = 0; i < grains * width; ++i)
         if (values[i] == fill || !std::isfinite(values[i]))
-            throw UserError(
-                fmt::format("{}: frame {}: grain {} has no place", file_.string(), frame, i / width));
+            throw UserError("{}: frame {}: grain {} has no place", file_.string(), frame, i / width);
     return grains;
 }
 
@@ -322,7 +311,7 @@ void AmberFile::add_columns(RawTable& grains, const AmberVariable& variable, std
         column.values.reserve(grains.rows);
         for (std::size_t i = 0; i < grains.rows; ++i) {
             const double value = values[i * variable.components + k];
-            column.values.push_back(value == variable.fill && !is_place ? nothing : value * variable.scale);
+            column.values.push_back(value == variable.fill && !is_place ? kUnknown : value * variable.scale);
         }
         grains.columns.push_back(std::move(column));
     }
@@ -383,30 +372,18 @@ bool takes_amber(const FileStart& head) {
            bytes.starts_with(kHdf5Signature);
 }
 
-// Opens a file of HDF5 and reads all of it in a child process, where a crash does no harm.
-void try_hdf5(const std::filesystem::path& file) {
-    const auto read_all = [&] {
-        const AmberFile one(file);
-        for (std::size_t i = 0; i < one.moments().size(); ++i) one.frame_at(i);
-    };
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    const auto seconds =
-        static_cast<unsigned>(std::min<std::uintmax_t>(30 + (error ? 0 : size) / 5000000, 3600));
-    if (!survives(read_all, seconds))
-        throw UserError(fmt::format(
-            "{}: is a damaged HDF5 file, on which the HDF5 library fails; copy it again", file.string()));
-}
-
 }  // namespace
 
 // Also called for files of HDF5 that are not H5MD.
 std::unique_ptr<RawFile> open_amber(const std::filesystem::path& file) {
     if (packing_of(file) != Packing::none)
-        throw UserError(
-            fmt::format("{}: a NetCDF file is not read while it is packed; unpack it", file.string()));
+        throw UserError("{}: a NetCDF file is not read while it is packed; unpack it", file.string());
     const std::lock_guard lock(hdf5_library());
-    if (is_hdf5(file)) try_hdf5(file);
+    if (is_hdf5(file))
+        try_in_child(file, [&] {
+            const AmberFile one(file);
+            for (std::size_t i = 0; i < one.moments().size(); ++i) one.frame_at(i);
+        });
     return std::make_unique<AmberFile>(file);
 }
 

@@ -3,13 +3,10 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/base/error.hpp"
 #include "engine/files/foreign/gaps.hpp"
 #include "engine/files/foreign/grain_shapes.hpp"
 #include "engine/files/foreign/names.hpp"
@@ -46,7 +43,6 @@ class GrainMeaning {
                  std::string file);
 
     bool has_ids() const { return id_.has_value(); }
-    bool has_types() const { return type_.has_value(); }
     bool has_velocities() const { return velocity_[0] && velocity_[1]; }
     // Discs in a plane turn about z alone.
     bool has_spins() const { return spin_[2] && (flat_ || (spin_[0] && spin_[1])); }

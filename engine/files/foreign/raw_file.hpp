@@ -97,22 +97,29 @@ class NotYetWhole : public UserError {
 
 class RawFile {
   public:
+    explicit RawFile(std::filesystem::path file) : file_(std::move(file)) {}
     virtual ~RawFile() = default;
 
-    virtual const RawFacts& facts() const = 0;
+    const RawFacts& facts() const { return facts_; }
     // All whole frames, in the order of the file. A frame that is cut at the end is left out, with a line of
     // news(). If no frame is whole, opening the file throws UserError (a dump: NotYetWhole).
-    virtual const std::vector<RawMoment>& moments() const = 0;
+    const std::vector<RawMoment>& moments() const { return moments_; }
     // Reads a frame. Throws UserError "FILE:LINE: what is wrong; what to do" (a byte in place of the line for
     // binary files). Counts are checked against the file's size before memory is asked for.
     virtual RawFrame read(std::size_t index) const = 0;
     // What the user should know about the file. Each line begins with the file's name.
-    virtual std::vector<std::string> news() const { return {}; }
+    virtual std::vector<std::string> news() const { return news_; }
     // Looks for frames that were written since then. Returns whether moments() has more. Throws UserError if
     // the file was truncated or replaced.
     virtual bool grow() { return false; }
     // Whether grow() does so. Files of other formats are opened anew.
     virtual bool grows() const { return false; }
+
+  protected:
+    std::filesystem::path file_;
+    RawFacts facts_;
+    std::vector<RawMoment> moments_;
+    std::vector<std::string> news_;
 };
 
 struct RawFormat {

@@ -1,9 +1,9 @@
 #include "engine/files/netcdf/hdf5_trial.hpp"
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/base/word_reader.hpp"
 
 namespace grainreel {
 
@@ -56,11 +57,11 @@ bool is_hdf5(const std::filesystem::path& file) {
 // HDF5 file format specification, II.A: the superblock tells where the file ends.
 void check_hdf5(const std::filesystem::path& file) {
     const std::string name = file.string(), head = superblock_of(file);
-    if (head.size() < superblock) throw UserError(fmt::format("{}: is cut off within its first bytes", name));
+    if (head.size() < superblock) throw UserError("{}: is cut off within its first bytes", name);
     const int version = static_cast<unsigned char>(head[8]);
     if (version > 3)
-        throw UserError(fmt::format("{}: byte 8: has the version {} of HDF5's superblock; 0 to 3 are read",
-                                    name, version));
+        throw UserError("{}: byte 8: has the version {} of HDF5's superblock; 0 to 3 are read", name,
+                        version);
     const int width = static_cast<unsigned char>(head[version < 2 ? 13 : 9]);
     if (width != 8) return;  // the library reports what is wrong with such a file
     const std::size_t place = version == 0 ? 40 : version == 1 ? 44 : 28;
@@ -69,17 +70,22 @@ void check_hdf5(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (!error && end > size)
-        throw UserError(fmt::format("{}: is cut off: it has {} bytes of {}; copy it again", name, size, end));
+        throw UserError("{}: is cut off: it has {} bytes of {}; copy it again", name, size, end);
 }
 
-bool survives(const std::function<void()>& work, unsigned seconds) {
+void try_in_child(const std::filesystem::path& file, const std::function<void()>& read_all) {
+    constexpr std::uintmax_t least = 30, most = 3600, bytes_a_second = 5000000;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    const std::uintmax_t seconds = std::min(least + (error ? 0 : size) / bytes_a_second, most);
     const pid_t child = ::fork();
-    if (child < 0) return true;
-    if (child == 0) work_alone(work, seconds);
+    if (child < 0) return;
+    if (child == 0) work_alone(read_all, static_cast<unsigned>(seconds));
     int status = 0;
     while (::waitpid(child, &status, 0) < 0)
-        if (errno != EINTR) return true;
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        if (errno != EINTR) return;
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        refuse_file(file, "is a damaged HDF5 file, on which the HDF5 library fails; copy it again");
 }
 
 }  // namespace grainreel

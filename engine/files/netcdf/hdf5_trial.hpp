@@ -21,8 +21,9 @@ bool is_hdf5(const std::filesystem::path& file);
 // its version is not known.
 void check_hdf5(const std::filesystem::path& file);
 
-// Does `work` in a child process for up to so many seconds, and tells whether the child survived. What the
-// child changed is lost. An exception counts as survival. Also returns true where no child can be made.
-bool survives(const std::function<void()>& work, unsigned seconds);
+// Reads all of an HDF5 file in a child process, where a crash does no harm: `read_all` may use the library as
+// it likes, and what it changes is lost. Throws UserError where the child does not survive that, or not in
+// time. Nothing is tried where no child can be made.
+void try_in_child(const std::filesystem::path& file, const std::function<void()>& read_all);
 
 }  // namespace grainreel

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <netcdf.h>
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 
@@ -210,26 +211,20 @@ void TrajectoryWriter::Impl::write_turn(const State& frame, Checksum& sum) {
 }
 
 void TrajectoryWriter::Impl::write_bodies(const State& frame, Checksum& sum) {
-    const std::size_t count = info.bodies.size();
-    const TrajectoryVariable* variable = body_variables.data();
-    const auto put = [&](std::size_t width, const auto& of) {
-        std::vector<double> rows;
-        for (std::size_t b = kFirstPlaneBody; b < frame.bodies.size(); ++b) {
-            const auto& numbers = of(frame.bodies[b]);
-            rows.insert(rows.end(), numbers.data(), numbers.data() + width);
-        }
-        file.put(variables[variable->name], {frames, 0, 0}, {1, count, width}, rows.data());
-        sum.add(rows.data(), rows.size());
-        ++variable;
+    std::array<std::vector<double>, body_variables.size()> values;
+    const auto add = [&](std::size_t k, const auto& numbers) {
+        values[k].insert(values[k].end(), numbers.begin(), numbers.end());
     };
-    put(
-        3, [](const BodyPose& pose) -> const auto& { return pose.place; });
-    put(
-        4, [](const BodyPose& pose) -> const auto& { return pose.rotation.coeffs(); });
-    put(
-        3, [](const BodyPose& pose) -> const auto& { return pose.velocity; });
-    put(
-        3, [](const BodyPose& pose) -> const auto& { return pose.spin; });
+    for (std::size_t b = kFirstPlaneBody; b < frame.bodies.size(); ++b) {
+        const BodyPose& pose = frame.bodies[b];
+        add(0, pose.place), add(1, pose.rotation.coeffs()), add(2, pose.velocity), add(3, pose.spin);
+    }
+    const std::size_t count = info.bodies.size();
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        file.put(variables[body_variables[k].name], {frames, 0, 0}, {1, count, values[k].size() / count},
+                 values[k].data());
+        sum.add(values[k].data(), values[k].size());
+    }
 }
 
 // of(grain, component) gives the values of grains for which there(grain) is true; the others get those of
@@ -314,8 +309,7 @@ void TrajectoryWriter::Impl::keep(const State& frame) {
 
 void TrajectoryWriter::Impl::add_place(const State& frame, std::size_t i) {
     if (kept.size() == places)
-        throw RunError(
-            fmt::format("{}: more grains came than the {} that the file has places for", name, places));
+        throw RunError("{}: more grains came than the {} that the file has places for", name, places);
     kept.id.push_back(frame.id[i]);
     kept.species.push_back(frame.species[i]);
     kept.radius.push_back(frame.radius[i]);
@@ -354,8 +348,7 @@ bool TrajectoryWriter::goes_on_with(const TrajectoryInfo& info, const std::files
         there.orientation != info.orientation || there.masses != info.masses || there.shapes != info.shapes ||
         there.container_turns != info.container_turns || !same_meshes(there.meshes, info.meshes) ||
         !there.checksums)
-        throw UserError(
-            fmt::format("{}: is of another scene, or of another version of grainreel", path.string()));
+        throw UserError("{}: is of another scene, or of another version of grainreel", path.string());
     return there.capacity == std::max<std::size_t>(info.capacity, 1);
 }
 
@@ -387,8 +380,8 @@ void TrajectoryWriter::write(const State& frame) {
     GRAINREEL_CHECK(!impl_->info.shapes || frame.shape.size() == frame.size());
     GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.bodies.size());
     if (frame.size() > impl_->info.capacity) {
-        throw RunError(fmt::format("{}: has places for {} grains, and a frame has {}", impl_->name,
-                                   impl_->info.capacity, frame.size()));
+        throw RunError("{}: has places for {} grains, and a frame has {}", impl_->name, impl_->info.capacity,
+                       frame.size());
     }
     if (impl_->info.traffic) impl_->keep(frame);
     impl_->write_pose(frame);

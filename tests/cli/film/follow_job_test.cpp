@@ -54,6 +54,9 @@ class FollowedJob : public testing::Test {
     Words follow(const std::string& idle) const {
         return {"render", "job", "--follow", "--idle", idle, "--out", "film"};
     }
+    Words follow_with_frames() const {
+        return {"render", "job", "--follow", "--idle", "300", "--out", "film", "--frames"};
+    }
 
     // Adds moments to the dump; a place of NaN leaves the ball out.
     void add(int from, int count, double lift = 0, bool lost = false) {
@@ -103,9 +106,7 @@ class FollowedJob : public testing::Test {
 // The pictures are there while the dump still lacks later ones, and in the end they are those of a film that
 // is drawn afterwards.
 TEST_F(FollowedJob, IsDrawnBesideTheJob) {
-    Words words = follow("300");
-    words.emplace_back("--frames");
-    Program following(words, {here.path(), {}});
+    Program following(follow_with_frames(), {here.path(), {}});
     add(0, 8);
     ASSERT_TRUE(film_grows(following, 7)) << following.wait().err;  // eight pictures, numbered from 0
     add(8, 5);
@@ -125,9 +126,7 @@ TEST_F(FollowedJob, IsDrawnBesideTheJob) {
 
 TEST_F(FollowedJob, EndsWithTheJobThatEndsEarlyInGoodOrder) {
     job_begins("node 1 1 start");
-    Words words = follow("300");
-    words.emplace_back("--frames");
-    Program following(words, {here.path(), {}});
+    Program following(follow_with_frames(), {here.path(), {}});
     add(0, 6);
     ASSERT_TRUE(film_grows(following, 5)) << following.wait().err;
     job_ends(0);
@@ -139,9 +138,7 @@ TEST_F(FollowedJob, EndsWithTheJobThatEndsEarlyInGoodOrder) {
 
 TEST_F(FollowedJob, SaysWhyTheJobDied) {
     job_begins("node 1 1 start");
-    Words words = follow("300");
-    words.emplace_back("--frames");
-    Program following(words, {here.path(), {}});
+    Program following(follow_with_frames(), {here.path(), {}});
     add(0, 6);
     ASSERT_TRUE(film_grows(following, 5)) << following.wait().err;
     job_ends(1, "LAMMPS (29 Sep 2021)\nERROR: Lost atoms: original 1 current 0 (../thermo.cpp:438)\n");
@@ -162,9 +159,7 @@ TEST_F(FollowedJob, WaitsForAJobThatGoesOn) {
         add(0, 8);
         job_ends(143, "", "node 1 1 start");
         if (!named) write_text(here / "job/job.status", "143\n");  // of a run.sh that names no job
-        Words words = follow("300");
-        words.emplace_back("--frames");
-        Program following(words, {here.path(), {}});
+        Program following(follow_with_frames(), {here.path(), {}});
         ASSERT_TRUE(film_grows(following, 7)) << following.wait().err;
         job_goes_on_from(5, "node 2 2 continue");
         add(5, 5);
@@ -182,9 +177,7 @@ TEST_F(FollowedJob, WaitsForAJobThatGoesOn) {
 TEST_F(FollowedJob, AJobThatBeginsAgainFromTheStartEndsTheFilm) {
     add(0, 8);
     job_ends(143, "", "node 1 1 start");
-    Words words = follow("300");
-    words.emplace_back("--frames");
-    Program following(words, {here.path(), {}});
+    Program following(follow_with_frames(), {here.path(), {}});
     ASSERT_TRUE(film_grows(following, 7)) << following.wait().err;
     job_begins("node 2 2 start");
     const Ended ended = following.wait();
@@ -202,9 +195,7 @@ TEST_F(FollowedJob, EndsWhereNothingNewComes) {
 }
 
 TEST_F(FollowedJob, IsWholeAfterCtrlC) {
-    Words words = follow("300");
-    words.emplace_back("--frames");
-    Program following(words, {here.path(), {}});
+    Program following(follow_with_frames(), {here.path(), {}});
     add(0, 8);
     ASSERT_TRUE(film_grows(following, 7)) << following.wait().err;
     following.send(SIGINT);

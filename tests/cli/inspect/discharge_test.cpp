@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "tests/cli/program.hpp"
+#include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -19,26 +20,16 @@ using testing::HasSubstr;
 using testing::Not;
 
 // 200 grains run out through a slot within a quarter of a second.
-const std::string hopper = R"(title = "Hopper"
-[[species]]
-name = "sand"
-count = 200
-diameter = "3 mm"
-density = 2500
-[contact]
-restitution = 0.6
-friction = 0.3
-[container]
-shape = "box"
-width = "20 mm"
-depth = "15 mm"
-height = "60 mm"
-outlet = { width = "12 mm", opens = "0.02 s", exit_depth = "10 mm" }
+const std::string hopper = SmallScene("title = \"Hopper\"\n")
+                               .beads(200, "sand", "3 mm")
+                               .contacts("0.6", "0.3")
+                               .box("20 mm", "15 mm", "60 mm")
+                               .more(R"(outlet = { width = "12 mm", opens = "0.02 s", exit_depth = "10 mm" }
 [start]
 settle_limit = "0.01 s"
-[run]
-duration = "0.25 s"
-overlap = 0.05
+)")
+                               .lasts("0.25 s")
+                               .more(R"(overlap = 0.05
 accuracy = "draft"
 threads = 1
 [output]
@@ -46,30 +37,20 @@ measures_interval = "5 ms"
 [film]
 size = "480x270"
 rate = 4
-)";
+)");
 
 // Sixty grains in a shaken cylinder, with fields.
-const std::string cylinder = R"([[species]]
-name = "sand"
-count = 60
-diameter = "3 mm"
-density = 2500
-[contact]
-restitution = 0.6
-friction = 0.3
-[container]
-shape = "cylinder"
-diameter = "20 mm"
-height = "60 mm"
-[drive]
-frequency = "40 Hz"
-g_level = 3
-ramp = 0
+const std::string cylinder = SmallScene()
+                                 .beads(60, "sand", "3 mm")
+                                 .contacts("0.6", "0.3")
+                                 .cylinder("20 mm", "60 mm")
+                                 .shaken("40 Hz", "3")
+                                 .more(R"(ramp = 0
 [start]
 settle_limit = "0.01 s"
-[run]
-duration = "0.15 s"
-overlap = 0.05
+)")
+                                 .lasts("0.15 s")
+                                 .more(R"(overlap = 0.05
 accuracy = "draft"
 threads = 1
 [output.fields]
@@ -78,7 +59,7 @@ periods = 1
 samples = 4
 cell = "4 mm"
 width = "4 mm"
-)";
+)");
 
 class FiguresOfARun : public testing::Test {
   protected:

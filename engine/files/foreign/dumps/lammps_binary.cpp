@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/dumps/binary_head.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
@@ -24,16 +24,13 @@ constexpr std::size_t block_numbers = std::size_t{1}
 
 class LammpsBinary : public RawFile {
   public:
-    explicit LammpsBinary(const fs::path& file) : file_(file), packing_(packing_of(file)), growth_(file) {
+    explicit LammpsBinary(const fs::path& file) : RawFile(file), packing_(packing_of(file)), growth_(file) {
         const std::optional<BinaryForm> form = binary_form_of(unpacked_head(file).bytes);
-        if (!form) throw UserError(fmt::format("{}: is no binary dump of LAMMPS", shown(file)));
+        if (!form) throw UserError("{}: is no binary dump of LAMMPS", shown(file));
         form_ = *form;
         look_for_frames();
         if (index_.frames.empty()) refuse_without_frame();
     }
-
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
 
     RawFrame read(std::size_t index) const override {
         const BinaryFrame& frame = index_.frames.at(index);
@@ -86,14 +83,11 @@ class LammpsBinary : public RawFile {
                     "the frame that was here is gone; did another program change the file?");
     }
 
-    fs::path file_;
     Packing packing_;
     Growth growth_;
     BinaryForm form_;
     BinaryIndex index_;
     bool stream_cut_ = false;
-    RawFacts facts_;
-    std::vector<RawMoment> moments_;
     mutable std::mutex reading_;
     mutable std::unique_ptr<ByteSource> kept_;
 };
@@ -118,9 +112,9 @@ void LammpsBinary::look_for_frames() {
 
 void LammpsBinary::refuse_without_frame() const {
     throw UserError(
-        fmt::format("{}: no frame of this file is whole: the first one claims {} grains, and the file has {} "
-                    "bytes; copy it again",
-                    shown(file_), index_.cut_rows, growth_.state().size));
+        "{}: no frame of this file is whole: the first one claims {} grains, and the file has {} "
+        "bytes; copy it again",
+        shown(file_), index_.cut_rows, growth_.state().size);
 }
 
 RawFrame LammpsBinary::read_frame(ByteSource& source, const BinaryFrame& frame) const {

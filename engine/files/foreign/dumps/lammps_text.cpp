@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <mutex>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
 #include "engine/files/foreign/dumps/text_index.hpp"
@@ -89,16 +88,13 @@ OldColumns old_columns(LineReader& lines, const std::filesystem::path& file, con
 
 class LammpsText : public RawFile {
   public:
-    explicit LammpsText(const fs::path& file) : file_(file), packing_(packing_of(file)), growth_(file) {
+    explicit LammpsText(const fs::path& file) : RawFile(file), packing_(packing_of(file)), growth_(file) {
         refuse_yaml();
         find_frames();
         if (index_.frames.empty()) refuse_without_frame();
         if (index_.names.empty()) name_columns();
         update();
     }
-
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
 
     RawFrame read(std::size_t index) const override {
         const DumpFrame& frame = index_.frames.at(index);
@@ -126,13 +122,10 @@ class LammpsText : public RawFile {
     RawFrame read_frame(LineReader& lines, const DumpFrame& frame) const;
     std::string cut_words() const;
 
-    fs::path file_;
     Packing packing_;
     Growth growth_;
     TextIndex index_;
     OldColumns old_;  // only for files without names
-    RawFacts facts_;
-    std::vector<RawMoment> moments_;
     mutable std::mutex reading_;
     mutable std::unique_ptr<LineReader> kept_;
 };
@@ -141,9 +134,9 @@ void LammpsText::refuse_yaml() const {
     const FileStart head = unpacked_head(file_);
     if (head.bytes.starts_with("---"))
         throw UserError(
-            fmt::format("{}: a dump in YAML (dump yaml), which is not read; let LAMMPS write dump custom, or "
-                        "write it anew by rerun",
-                        shown(file_)));
+            "{}: a dump in YAML (dump yaml), which is not read; let LAMMPS write dump custom, or "
+            "write it anew by rerun",
+            shown(file_));
 }
 
 void LammpsText::find_frames() {
@@ -161,10 +154,9 @@ void LammpsText::find_frames() {
 }
 
 void LammpsText::refuse_without_frame() const {
-    if (!index_.cut) throw NotYetWhole(fmt::format("{}: holds no frame", shown(file_)));
-    throw NotYetWhole(
-        fmt::format("{}:{}: no frame of this file is whole, neither is the one that begins here: {}",
-                    shown(file_), index_.cut->line, cut_words()));
+    if (!index_.cut) throw NotYetWhole("{}: holds no frame", shown(file_));
+    throw NotYetWhole("{}:{}: no frame of this file is whole, neither is the one that begins here: {}",
+                      shown(file_), index_.cut->line, cut_words());
 }
 
 // Says why the frame at the end is not whole.

@@ -5,16 +5,15 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/h5md/hdf5_file.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/netcdf/hdf5_trial.hpp"
@@ -28,7 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t kMostComponents = 64;
 
 // The steps or times of an element: a list, or an increment.
@@ -59,9 +57,6 @@ class H5mdFile : public RawFile {
     // Throws UserError where the file cannot be read or has no places of grains.
     explicit H5mdFile(const fs::path& file);
 
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
-    std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t index) const override;
     // Reads a frame for a caller that already holds the lock.
     RawFrame frame_at(std::size_t index) const;
@@ -77,7 +72,6 @@ class H5mdFile : public RawFile {
     void find_elements();
     void find_units();
     std::string unit_of(const std::string& path) const;
-    double unit_of_length(const std::string& path, Dimension dimension, double present);
     std::optional<std::size_t> row_of(const Element& element, std::size_t frame) const;
     std::vector<double> numbers(const Element& element, std::size_t frame) const;
     std::vector<std::size_t> grains_of(std::size_t frame) const;
@@ -86,7 +80,6 @@ class H5mdFile : public RawFile {
     void add_columns(RawTable& grains, const Element& element, const std::vector<std::size_t>& rows,
                      std::size_t frame) const;
 
-    fs::path file_;
     Hdf5File hdf5_;
     std::string group_;  // "particles/all"
     std::size_t frames_ = 1, grains_ = 0;
@@ -94,12 +87,9 @@ class H5mdFile : public RawFile {
     std::optional<Element> ids_, edges_;
     std::array<bool, 3> periodic_{};
     std::vector<Element> elements_;
-    RawFacts facts_;
-    std::vector<RawMoment> moments_;
-    std::vector<std::string> news_;
 };
 
-H5mdFile::H5mdFile(const fs::path& file) : file_(file), hdf5_(file) {
+H5mdFile::H5mdFile(const fs::path& file) : RawFile(file), hdf5_(file) {
     facts_.format = "H5MD";
     if (!is_h5md(hdf5_)) fault("is HDF5, but not H5MD");
     const std::vector<std::string> name = hdf5_.words_of("h5md/creator", "name"),
@@ -339,7 +329,7 @@ void H5mdFile::add_columns(RawTable& grains, const Element& element, const std::
             column.name = fmt::format("{}:{}", element.name, k);
         column.values.reserve(rows.size());
         for (const std::size_t row : rows)
-            column.values.push_back(values.empty() ? nothing
+            column.values.push_back(values.empty() ? kUnknown
                                                    : values[row * element.components + k] * element.size);
         grains.columns.push_back(std::move(column));
     }
@@ -369,16 +359,10 @@ bool takes_h5md(const FileStart& head) {
 
 // Reads all of the file in a child process, where a crash does no harm. Returns whether it is H5MD.
 bool try_h5md(const fs::path& file) {
-    const auto read_all = [&] {
+    try_in_child(file, [&] {
         const H5mdFile one(file);
         for (std::size_t i = 0; i < one.moments().size(); ++i) one.frame_at(i);
-    };
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(file, error);
-    const auto seconds =
-        static_cast<unsigned>(std::min<std::uintmax_t>(30 + (error ? 0 : size) / 5000000, 3600));
-    if (!survives(read_all, seconds))
-        refuse_file(file, "is a damaged HDF5 file, on which the HDF5 library fails; copy it again");
+    });
     const Hdf5File one(file);
     if (one.has_group("VTKHDF"))
         refuse_file(file,

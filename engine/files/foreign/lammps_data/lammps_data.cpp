@@ -2,8 +2,6 @@
 // section "Atoms" says places, types, diameters and densities, "Velocities" how the grains move, and "Atom
 // Type Labels" what the types are called. All other sections are passed over.
 #include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,10 +12,11 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
+#include "engine/files/foreign/bytes/line_reader.hpp"
 #include "engine/files/foreign/lammps_data/data_columns.hpp"
-#include "engine/files/foreign/line_reader.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 
@@ -26,8 +25,6 @@ namespace grainreel {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array<const char*, 7> kGrainColumns{"id", "type", "diameter", "density", "x", "y", "z"};
 constexpr std::array<const char*, 6> kMotionColumns{"vx", "vy", "vz", "wx", "wy", "wz"};
@@ -61,9 +58,6 @@ class LammpsDataFile : public RawFile {
   public:
     explicit LammpsDataFile(const fs::path& file);
 
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
-    std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t) const override { return frame_; }
 
   private:
@@ -88,7 +82,6 @@ class LammpsDataFile : public RawFile {
     double type_in(std::string_view word);
     void finish();
 
-    fs::path file_;
     LineReader lines_;
     TextLine line_;  // the present line
     bool last_row_ended_ = true;
@@ -100,13 +93,10 @@ class LammpsDataFile : public RawFile {
     std::unordered_map<std::string, double> type_of_label_;
     std::unordered_map<std::int64_t, std::size_t> row_of_id_;
     std::int64_t atoms_line_ = 0;
-    RawFacts facts_;
     RawFrame frame_;
-    std::vector<RawMoment> moments_;
-    std::vector<std::string> news_;
 };
 
-LammpsDataFile::LammpsDataFile(const fs::path& file) : file_(file), lines_(file) {
+LammpsDataFile::LammpsDataFile(const fs::path& file) : RawFile(file), lines_(file) {
     facts_.format = "LAMMPS data file";
     for (std::size_t axis = 0; axis < 3; ++axis) {  // read_data's own box where the file says none
         box_.origin[static_cast<Eigen::Index>(axis)] = -0.5;
@@ -204,7 +194,7 @@ void LammpsDataFile::take_vector(const std::vector<std::string_view>& words) {
     if (words.back() == "origin")
         box_.origin = vector;
     else
-        box_.edges[static_cast<std::size_t>(words.back().front() - 'a')] = vector;
+        box_.edges[words.back().front() - 'a'] = vector;
 }
 
 template <typename Take>
@@ -327,7 +317,7 @@ bool LammpsDataFile::take_velocities() {
     if (grains.columns.size() > kGrainColumns.size()) fault("a second section Velocities");
     std::int64_t rows = 0;
     for (const char* name : kMotionColumns)
-        grains.columns.push_back({name, std::vector<double>(grains.rows, nothing), {}});
+        grains.columns.push_back({name, std::vector<double>(grains.rows, kUnknown), {}});
     const bool more = rows_of_section("Velocities", [&](const std::vector<std::string_view>& words) {
         if (words.size() < 4) fault("an id and three velocities are expected");
         const std::optional<std::int64_t> id = whole_in(words[0]);

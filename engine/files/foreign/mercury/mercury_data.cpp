@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "engine/base/counted.hpp"
-#include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"

@@ -4,7 +4,6 @@
 // is taken as such a row.
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,11 +15,12 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/triangle_mesh.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/line_reader.hpp"
+#include "engine/files/foreign/bytes/line_reader.hpp"
 #include "engine/files/foreign/mercury/plane_in_box.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
@@ -29,8 +29,6 @@
 namespace grainreel {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 struct Field {
     const char* key;
@@ -76,9 +74,9 @@ class RestartLine {
     // The numbers after a key, whose case does not matter; null unless there are exactly `count` of them. If
     // a key comes twice, the last one with so many numbers is taken.
     const std::vector<double>* find(std::string_view key, std::size_t count) const {
-        const std::string wanted = lower_case(key);
+        const std::string lower_key = lower_case(key);
         for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry)
-            if (entry->first == wanted && entry->second.size() == count) return &entry->second;
+            if (entry->first == lower_key && entry->second.size() == count) return &entry->second;
         return nullptr;
     }
     std::optional<double> number(std::string_view key) const {
@@ -107,9 +105,6 @@ class MercuryRestart : public RawFile {
   public:
     explicit MercuryRestart(const std::filesystem::path& file);
 
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
-    std::vector<std::string> news() const override { return news_; }
     RawFrame read(std::size_t) const override { return frame_; }
 
   private:
@@ -128,7 +123,6 @@ class MercuryRestart : public RawFile {
     void add(const char* column, double value);
     void finish();
 
-    std::filesystem::path file_;
     LineReader lines_;
     TextLine line_;  // the present line
     Part part_ = Part::head;
@@ -138,14 +132,11 @@ class MercuryRestart : public RawFile {
     bool grains_seen_ = false;
     std::vector<double> densities_;        // by species
     std::map<std::string, int> left_out_;  // number of walls that were left out, by kind
-    RawFacts facts_;
     RawFrame frame_;
     WorldCell box_;
-    std::vector<RawMoment> moments_;
-    std::vector<std::string> news_;
 };
 
-MercuryRestart::MercuryRestart(const std::filesystem::path& file) : file_(file), lines_(file) {
+MercuryRestart::MercuryRestart(const std::filesystem::path& file) : RawFile(file), lines_(file) {
     facts_.format = "MercuryDPM restart";
     facts_.program = "MercuryDPM";
     while (lines_.next_with_words(line_))
@@ -306,7 +297,7 @@ void MercuryRestart::take_grain(const RestartLine& line) {
         for (const Field& field : fields_of_keys()) {
             const std::vector<double>* numbers = line.find(field.key, field.columns.size());
             for (std::size_t i = 0; i < field.columns.size(); ++i)
-                add(field.columns[i], numbers ? (*numbers)[i] : nothing);
+                add(field.columns[i], numbers ? (*numbers)[i] : kUnknown);
         }
     }
     ++frame_.grains.rows;
@@ -318,7 +309,7 @@ void MercuryRestart::finish() {
         RawColumn density{"density", {}, {}};
         for (const double one : species->values) {
             const bool known = one >= 0 && one < static_cast<double>(densities_.size());
-            density.values.push_back(known ? densities_[static_cast<std::size_t>(one)] : nothing);
+            density.values.push_back(known ? densities_[one] : kUnknown);
         }
         grains.columns.push_back(std::move(density));
     }

@@ -78,10 +78,10 @@ const char* name_of_wrong(CellKind kind) {
 }
 
 bool ColumnFiller::add_word(std::string_view word) {
-    auto found = numbers_.find(word);
-    if (found == numbers_.end())
-        found = numbers_.emplace(std::string(word), static_cast<double>(numbers_.size())).first;
-    column_.values.push_back(found->second);
+    auto entry = numbers_.find(word);
+    if (entry == numbers_.end())
+        entry = numbers_.emplace(std::string(word), static_cast<double>(numbers_.size())).first;
+    column_.values.push_back(entry->second);
     return true;
 }
 
@@ -108,10 +108,10 @@ RawColumn ColumnFiller::finish() {
     std::vector<double> meant(numbers_.size());
     double place = 0;
     for (const auto& [word, number] : numbers_) {
-        meant[static_cast<std::size_t>(number)] = whole ? static_cast<double>(*whole_in(word)) : place++;
+        meant[number] = whole ? static_cast<double>(*whole_in(word)) : place++;
         if (!whole) column_.words.push_back(word);
     }
-    for (double& value : column_.values) value = meant[static_cast<std::size_t>(value)];
+    for (double& value : column_.values) value = meant[value];
     return std::move(column_);
 }
 

@@ -35,7 +35,7 @@ std::vector<std::string_view> lines_of(const FileStart& head, std::size_t most) 
     return lines;
 }
 
-TextFrames::TextFrames(const std::filesystem::path& file) : file_(file), growth_(file), lines_(file) {}
+TextFrames::TextFrames(const std::filesystem::path& file) : RawFile(file), growth_(file), lines_(file) {}
 
 void TextFrames::fault(const TextLine& line, const std::string& what) const {
     refuse_line(file_, line.number, what);

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/files/foreign/bytes/line_reader.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
-#include "engine/files/foreign/line_reader.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {
@@ -23,10 +23,7 @@ std::vector<std::string_view> lines_of(const FileStart& head, std::size_t most);
 // A text file in which frames follow each other. One pass over the file finds where each frame begins.
 class TextFrames : public RawFile {
   public:
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
     RawFrame read(std::size_t index) const override;
-    std::vector<std::string> news() const override { return news_; }
     bool grow() override;
     bool grows() const override { return true; }
 
@@ -50,8 +47,6 @@ class TextFrames : public RawFile {
     template <class Reader>
     friend std::unique_ptr<RawFile> open_text_frames(const std::filesystem::path& file);
 
-    RawFacts facts_;
-
   private:
     struct Place {
         std::uint64_t byte = 0;
@@ -60,13 +55,10 @@ class TextFrames : public RawFile {
 
     void go_on(bool growing);
 
-    std::filesystem::path file_;
-    std::vector<RawMoment> moments_;
     std::vector<Place> places_;
     Place next_;             // where the next frame begins
     TextLine line_;          // the last line that was read by go_on()
     bool open_end_ = false;  // the last line of the last frame has no line feed
-    std::vector<std::string> news_;
     Growth growth_;
     mutable std::mutex reading_;
     mutable LineReader lines_;

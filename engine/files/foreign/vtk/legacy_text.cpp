@@ -26,8 +26,8 @@ constexpr bool is_letter(char c) {
 }  // namespace
 
 void LegacyText::refuse(const std::string& what) const {
-    if (binary_) refuse_vtk_byte(content_.file(), last_, what);
-    refuse_vtk_line(content_.file(), content_.line_of(last_), what);
+    if (binary_) refuse_byte(content_.file(), last_, what);
+    refuse_line(content_.file(), content_.line_of(last_), what);
 }
 
 void LegacyText::skip_blanks() {
@@ -102,9 +102,9 @@ std::uint64_t LegacyText::count(const char* what) {
 
 VtkType LegacyText::type(const char* what) {
     const std::string text = word();
-    const auto found = vtk_legacy_type(text);
-    if (!found) refuse(fmt::format("numbers of type \"{}\" for {}, which are not read", excerpt(text), what));
-    return *found;
+    const auto type = vtk_legacy_type(text);
+    if (!type) refuse(fmt::format("numbers of type \"{}\" for {}, which are not read", excerpt(text), what));
+    return *type;
 }
 
 std::uint64_t LegacyText::stored(VtkType type, std::uint64_t count) {
@@ -139,8 +139,8 @@ std::string_view LegacyText::whole_words() const {
     const auto end = std::find_if(text.rbegin(), text.rend(), is_blank);
     text = text.substr(0, static_cast<std::size_t>(text.rend() - end));
     if (text.empty())
-        refuse_vtk_line(content_.file(), content_.line_of(at_),
-                        "a word here is longer than 1 MB; is this a file of VTK?");
+        refuse_line(content_.file(), content_.line_of(at_),
+                    "a word here is longer than 1 MB; is this a file of VTK?");
     return text;
 }
 
@@ -200,8 +200,8 @@ std::vector<T> LegacyText::numbers(VtkType type, std::uint64_t count, bool finit
     read_bytes(type, count, values);
     for (std::size_t i = 0; finite && i < values.size(); ++i)
         if (!std::isfinite(static_cast<double>(values[i])))
-            refuse_vtk_byte(content_.file(), last_ + bytes_of(type, i),
-                            "a place that is no number; remove the point or write its place");
+            refuse_byte(content_.file(), last_ + bytes_of(type, i),
+                        "a place that is no number; remove the point or write its place");
     return values;
 }
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -19,7 +18,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_parts.hpp"
 #include "engine/files/foreign/vtk/xml_arrays.hpp"
@@ -139,12 +138,12 @@ void find_entries(const fs::path& file, const XmlElement& element, std::vector<E
         entry.group = child.attribute("group");
         entry.file = named_file(file.parent_path(), child.attribute("file"));
         entry.name = child.has("name") ? child.attribute("name") : child.attribute("group");
-        if (entry.file.empty()) refuse_vtk_line(file, child.line, "a DataSet without a file");
+        if (entry.file.empty()) refuse_line(file, child.line, "a DataSet without a file");
         const std::string_view time = child.attribute("timestep");
         if (WordReader words(time); words.has_word()) {
             entry.time = words.next_number();
             if (!entry.time || !std::isfinite(*entry.time))
-                refuse_vtk_line(file, child.line, fmt::format("timestep=\"{}\" is no time", excerpt(time)));
+                refuse_line(file, child.line, fmt::format("timestep=\"{}\" is no time", excerpt(time)));
         }
         entries.push_back(std::move(entry));
     }
@@ -175,16 +174,16 @@ CollectionList list_of_series(const fs::path& file, const std::string& bytes) {
     try {
         series = nlohmann::json::parse(bytes);
     } catch (const nlohmann::json::parse_error& error) {
-        refuse_vtk_line(file, line_of_byte(bytes, error.byte), "is no valid JSON here; write it again");
+        refuse_line(file, line_of_byte(bytes, error.byte), "is no valid JSON here; write it again");
     }
     const auto files = series.find("files");
-    if (files == series.end() || !files->is_array()) refuse_vtk_file(file, "its list \"files\" is missing");
+    if (files == series.end() || !files->is_array()) refuse_file(file, "its list \"files\" is missing");
     std::vector<Entry> entries;
     for (const nlohmann::json& each : *files) {
         const auto name = each.is_object() ? each.find("name") : each.end();
         if (!each.is_object() || name == each.end() || !name->is_string())
-            refuse_vtk_file(
-                file, fmt::format("entry {} of its list \"files\" has no \"name\"", entries.size() + 1));
+            refuse_file(file,
+                        fmt::format("entry {} of its list \"files\" has no \"name\"", entries.size() + 1));
         Entry entry;
         entry.file = named_file(file.parent_path(), name->get<std::string>());
         const auto time = each.find("time");
@@ -212,7 +211,7 @@ CollectionList collection_list(const fs::path& file) {
     if (is_block_type(type)) return {"VTK blocks (.vtm)", {}, {{{}, {}, {{file, ""}}}}};
     CollectionList list =
         type.empty() ? list_of_series(file, all_bytes(file, largest_list)) : list_of_pvd(file);
-    if (list.moments.empty()) refuse_vtk_file(file, "this collection names no files");
+    if (list.moments.empty()) refuse_file(file, "this collection names no files");
     return list;
 }
 
@@ -228,7 +227,7 @@ bool is_there(const VtkPartFile& file) {
 
 class VtkCollection : public RawFile {
   public:
-    explicit VtkCollection(fs::path file) : file_(std::move(file)), list_(collection_list(file_)) {
+    explicit VtkCollection(fs::path file) : RawFile(std::move(file)), list_(collection_list(file_)) {
         facts_.format = list_.format;
         facts_.program = list_.program;
         if (list_.replaced > 0)
@@ -238,10 +237,6 @@ class VtkCollection : public RawFile {
         take_moments();
         if (moments_.empty()) refuse();
     }
-
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
-    std::vector<std::string> news() const override { return news_; }
 
     RawFrame read(std::size_t index) const override {
         const CollectionMoment& moment = list_.moments[taken_[index]];
@@ -259,7 +254,7 @@ class VtkCollection : public RawFile {
         const std::size_t done = taken_.empty() ? 0 : taken_.back() + 1;
         if (list.moments.size() < done ||
             !std::equal(list.moments.begin(), list.moments.begin() + done_of(done), list_.moments.begin()))
-            refuse_vtk_file(file_, "was replaced by another list while it was read; start again");
+            refuse_file(file_, "was replaced by another list while it was read; start again");
         list_ = std::move(list);
         const std::size_t before = moments_.size();
         take_moments();
@@ -324,9 +319,8 @@ class VtkCollection : public RawFile {
             return;
         }
         if (parts.grids > 0) pass_over(parts.grid);
-        const RawMoment& found = parts.moment;
-        if (parts.grids > 0 && found.grains == 0 && !found.has_contacts && !found.has_walls &&
-            !parts.frame.box)
+        const RawMoment& held = parts.moment;
+        if (parts.grids > 0 && held.grains == 0 && !held.has_contacts && !held.has_walls && !parts.frame.box)
             return;
         if (!parts.program.empty()) facts_.program = parts.program;
         if (parts.missing > 0 && !said_missing_) {
@@ -352,19 +346,15 @@ class VtkCollection : public RawFile {
     [[noreturn]] void refuse() const {
         if (!complaint_.empty()) throw UserError(complaint_);
         if (!grid_.empty())
-            refuse_vtk_file(
-                file_, fmt::format("holds a grid, not grains (\"{}\"); give a file of points or surfaces",
-                                   shown(grid_.filename())));
-        refuse_vtk_file(file_, fmt::format("names files, and \"{}\" is not there; copy its files beside it",
-                                           shown(first_missing_)));
+            refuse_file(file_,
+                        fmt::format("holds a grid, not grains (\"{}\"); give a file of points or surfaces",
+                                    shown(grid_.filename())));
+        refuse_file(file_, fmt::format("names files, and \"{}\" is not there; copy its files beside it",
+                                       shown(first_missing_)));
     }
 
-    fs::path file_;
     CollectionList list_;
-    RawFacts facts_{};
-    std::vector<RawMoment> moments_{};
     std::vector<std::size_t> taken_{};  // numbers in list_.moments
-    std::vector<std::string> news_{};
     std::string complaint_{};
     fs::path first_missing_{}, grid_{};
     bool said_missing_ = false;

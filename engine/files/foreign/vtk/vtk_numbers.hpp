@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/base/plain_file.hpp"
+#include "engine/base/word_reader.hpp"
 
 namespace grainreel {
 
@@ -51,13 +52,8 @@ struct VtkPlace {
     std::string array{};
 };
 
-// These throw UserError: "FILE:LINE: array \"Radius\": what", "FILE: byte 84: what", "FILE: what".
+// Throws UserError "FILE:LINE: array \"Radius\": what".
 [[noreturn]] void refuse_vtk(const VtkPlace& place, const std::string& what);
-[[noreturn]] void refuse_vtk_line(const std::filesystem::path& file, std::int64_t line,
-                                  const std::string& what);
-[[noreturn]] void refuse_vtk_byte(const std::filesystem::path& file, std::size_t byte,
-                                  const std::string& what);
-[[noreturn]] void refuse_vtk_file(const std::filesystem::path& file, const std::string& what);
 
 // "FILE:LINE", or as much of it as is known.
 std::string text_of(const VtkPlace& place);

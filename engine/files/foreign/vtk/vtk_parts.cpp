@@ -8,9 +8,8 @@
 
 #include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_xml.hpp"
@@ -110,7 +109,7 @@ void add_surface(const fs::path& file, const std::string& name, VtkPart part, Vt
 
 void add_blocks(const fs::path& file, VtkPart part, VtkParts& parts, int depth) {
     if (depth >= most_depth)
-        refuse_vtk_file(file, "lists of files within lists without an end; name the files themselves");
+        refuse_file(file, "lists of files within lists without an end; name the files themselves");
     for (const VtkPartFile& block : files_of_blocks(file, xml_tree(Content(file)))) {
         if (is_plain(block.file))
             add_part(block, part, parts, depth + 1);
@@ -158,7 +157,7 @@ void add_part(const VtkPartFile& part_file, VtkPart part, VtkParts& parts, int d
     if (!type.empty()) return add_contents(read_vtk_xml(file, part), part_file.name, part, parts);
     if (takes_vtk_legacy(head)) return add_contents(read_vtk_legacy(file, part), part_file.name, part, parts);
     if (takes_wall_surface(head)) return add_surface(file, part_file.name, part, parts);
-    refuse_vtk_file(file, "is neither a file of VTK nor a surface; a collection can name no others");
+    refuse_file(file, "is neither a file of VTK nor a surface; a collection can name no others");
 }
 
 namespace {
@@ -208,10 +207,10 @@ RawWall wall_of(std::string name, const TriangleMesh& mesh, std::size_t from, st
     for (std::size_t i = from; i < from + count; ++i) {
         TriangleMesh::Triangle triangle = mesh.triangles[i];
         for (std::int32_t& corner : triangle) {
-            std::int32_t& mine = number[static_cast<std::size_t>(corner)];
+            std::int32_t& mine = number[corner];
             if (mine < 0) {
                 mine = static_cast<std::int32_t>(wall.mesh.vertices.size());
-                wall.mesh.vertices.push_back(mesh.vertices[static_cast<std::size_t>(corner)]);
+                wall.mesh.vertices.push_back(mesh.vertices[corner]);
             }
             corner = mine;
         }
@@ -251,26 +250,19 @@ std::string mesh_content(const fs::path& file) {
 
 class WallSurface : public RawFile {
   public:
-    explicit WallSurface(fs::path file) : file_(std::move(file)) {
+    explicit WallSurface(fs::path file) : RawFile(std::move(file)) {
         const std::string bytes = mesh_content(file_);
         const MeshFormat format = format_of(file_, bytes);
         if (read_mesh(format, file_, bytes).empty())
-            refuse_vtk_file(file_, fmt::format("this {} has no triangles", name_of(format)));
+            refuse_file(file_, fmt::format("this {} has no triangles", name_of(format)));
         facts_.format = name_of(format);
         moments_.push_back({std::nullopt, std::nullopt, 0, false, true});
     }
-    const RawFacts& facts() const override { return facts_; }
-    const std::vector<RawMoment>& moments() const override { return moments_; }
     RawFrame read(std::size_t) const override {
         RawFrame frame;
         frame.walls = read_wall_surface(file_);
         return frame;
     }
-
-  private:
-    fs::path file_;
-    RawFacts facts_;
-    std::vector<RawMoment> moments_;
 };
 
 std::unique_ptr<RawFile> open_wall_surface(const fs::path& file) {

@@ -7,11 +7,12 @@
 #include <set>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
@@ -30,11 +31,11 @@ bool is_list(std::string_view type) {
                                           "UniformGrid",     "PImageData",      "PRectilinearGrid",
                                           "PStructuredGrid", "HyperTreeGrid"};
     if (std::find(std::begin(grids), std::end(grids), type) != std::end(grids))
-        refuse_vtk_line(file, root.line,
-                        fmt::format("holds a grid, not grains (VTK's {}); give a file of PolyData or "
-                                    "UnstructuredGrid",
-                                    type));
-    refuse_vtk_line(
+        refuse_line(file, root.line,
+                    fmt::format("holds a grid, not grains (VTK's {}); give a file of PolyData or "
+                                "UnstructuredGrid",
+                                type));
+    refuse_line(
         file, root.line,
         fmt::format("holds VTK's \"{}\", which is not read; give a file of PolyData or UnstructuredGrid",
                     excerpt(type)));
@@ -97,10 +98,10 @@ void read_words(const XmlTree& tree, VtkContents& contents) {
 // The file of a piece. Throws UserError where it does not exist.
 fs::path file_of_piece(const fs::path& file, const XmlElement& piece) {
     const std::string source = named_file(file.parent_path(), piece.attribute("Source"));
-    if (source.empty()) refuse_vtk_line(file, piece.line, "a piece without a file: its Source is missing");
+    if (source.empty()) refuse_line(file, piece.line, "a piece without a file: its Source is missing");
     const fs::path path = file.parent_path() / source;
     if (!is_plain(path))
-        refuse_vtk_line(
+        refuse_line(
             file, piece.line,
             fmt::format("its piece \"{}\" is not there; copy it beside this file", excerpt(source, 200)));
     return path;
@@ -110,10 +111,10 @@ void add_pieces_of(const fs::path& file, const XmlElement& piece, VtkPart part, 
     const fs::path path = file_of_piece(file, piece);
     const std::string type = vtk_file_type(unpacked_head(path).bytes);
     if (is_list(type))
-        refuse_vtk_line(file, piece.line,
-                        fmt::format("its piece \"{}\" is a list of pieces itself",
-                                    excerpt(piece.attribute("Source"), 200)));
-    if (type.empty()) refuse_vtk_file(path, fmt::format("is no file of VTK in XML, as a piece must be"));
+        refuse_line(file, piece.line,
+                    fmt::format("its piece \"{}\" is a list of pieces itself",
+                                excerpt(piece.attribute("Source"), 200)));
+    if (type.empty()) refuse_file(path, fmt::format("is no file of VTK in XML, as a piece must be"));
     VtkContents more = read_vtk_xml(path, part);
     if (!contents.time) contents.time = more.time;
     if (!contents.step) contents.step = more.step;
@@ -164,8 +165,7 @@ VtkContents read_vtk_xml(const fs::path& file, VtkPart part) {
         refuse_type(file, tree.root, type);
     const XmlElement* set = tree.root.child(type);
     if (set == nullptr)
-        refuse_vtk_line(file, tree.root.line,
-                        fmt::format("its element {} is missing; {}", type, kWriteAgain));
+        refuse_line(file, tree.root.line, fmt::format("its element {} is missing; {}", type, kWriteAgain));
     const XmlArrays arrays(content, tree);
     VtkContents contents;
     contents.format = fmt::format("VTK XML, {}", type);
@@ -192,8 +192,8 @@ const XmlElement* array_named(const XmlElement& element, std::string_view name) 
 
 const XmlElement& needed(const XmlArrays& arrays, const XmlElement& element, std::string_view name) {
     if (const XmlElement* array = array_named(element, name)) return *array;
-    refuse_vtk_line(arrays.file(), element.line,
-                    fmt::format("its array \"{}\" is missing from {}; {}", name, element.name, kWriteAgain));
+    refuse_line(arrays.file(), element.line,
+                fmt::format("its array \"{}\" is missing from {}; {}", name, element.name, kWriteAgain));
 }
 
 // Adds the ends and corners of cells, but not their types.
@@ -230,7 +230,7 @@ void add_poly_cells(const XmlArrays& arrays, const XmlElement& piece, VtkCells& 
         if (count == 0) continue;
         const XmlElement* element = piece.child(kind.element);
         if (element == nullptr)
-            refuse_vtk_line(
+            refuse_line(
                 arrays.file(), piece.line,
                 fmt::format("{}=\"{}\", and no {}; {}", kind.count, count, kind.element, kWriteAgain));
         const std::size_t before = cells.ends.size();
@@ -243,11 +243,10 @@ void add_poly_cells(const XmlArrays& arrays, const XmlElement& piece, VtkCells& 
 
 // Replaces the corners of polyhedra by their streams of faces.
 void add_faces(const XmlArrays& arrays, const XmlElement& element, VtkCells& cells) {
-    if (std::find(cells.types.begin(), cells.types.end(), VtkCell::polyhedron) == cells.types.end()) return;
+    if (!contains(cells.types, VtkCell::polyhedron)) return;
     if (array_named(element, "faces") == nullptr && array_named(element, "face_connectivity") != nullptr)
-        refuse_vtk_line(
-            arrays.file(), element.line,
-            "polyhedra in the form of VTK 9.4, which are not read; write the file in an older form");
+        refuse_line(arrays.file(), element.line,
+                    "polyhedra in the form of VTK 9.4, which are not read; write the file in an older form");
     const XmlElement& offsets = needed(arrays, element, "faceoffsets");
     const std::vector<std::int64_t> stream = arrays.whole(needed(arrays, element, "faces"), std::nullopt);
     const std::vector<std::int64_t> ends = arrays.whole(offsets, cells.size());
@@ -276,8 +275,8 @@ void add_cells(const XmlArrays& arrays, const XmlElement& piece, VtkCells& cells
     if (count == 0) return;
     const XmlElement* element = piece.child("Cells");
     if (element == nullptr)
-        refuse_vtk_line(arrays.file(), piece.line,
-                        fmt::format("NumberOfCells=\"{}\", and no Cells; {}", count, kWriteAgain));
+        refuse_line(arrays.file(), piece.line,
+                    fmt::format("NumberOfCells=\"{}\", and no Cells; {}", count, kWriteAgain));
     for (const std::int64_t type : arrays.whole(needed(arrays, *element, "types"), count))
         cells.types.push_back(static_cast<std::uint8_t>(std::clamp<std::int64_t>(type, 0, 255)));
     add_corners(arrays, *element, count, cells);
@@ -308,8 +307,8 @@ void add_places(const XmlArrays& arrays, const XmlElement& piece, VtkPart part, 
     const XmlElement* points = piece.child("Points");
     const XmlElement* array = points == nullptr ? nullptr : points->child("DataArray");
     if (array == nullptr)
-        refuse_vtk_line(arrays.file(), piece.line,
-                        fmt::format("NumberOfPoints=\"{}\", and no Points; {}", read.points, kWriteAgain));
+        refuse_line(arrays.file(), piece.line,
+                    fmt::format("NumberOfPoints=\"{}\", and no Points; {}", read.points, kWriteAgain));
     if (array->has("NumberOfComponents") && arrays.count_in(*array, "NumberOfComponents") != 3)
         refuse_vtk(arrays.place_of(*array), "its places must have three components");
     arrays.check(*array, 3 * read.points);
@@ -324,8 +323,8 @@ void check_cells(const VtkPiece& piece) {
         if (cells.types[cell] == VtkCell::polyhedron) continue;
         for (std::size_t i = cells.begin_of(cell); i < cells.end_of(cell); ++i)
             if (cells.corners[i] < 0 || cells.corners[i] >= static_cast<std::int64_t>(piece.points))
-                throw UserError(fmt::format("{}: cell {} names point {}, and there are {}, from 0; {}",
-                                            piece.where, cell, cells.corners[i], piece.points, kWriteAgain));
+                throw UserError("{}: cell {} names point {}, and there are {}, from 0; {}", piece.where, cell,
+                                cells.corners[i], piece.points, kWriteAgain);
     }
 }
 

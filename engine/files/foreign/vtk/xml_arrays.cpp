@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 
 namespace grainreel {
 
@@ -31,14 +30,13 @@ VtkCoding coding_of(const fs::path& file, const XmlElement& root) {
     const std::string_view order = root.attribute("byte_order");
     coding.big_endian = order == "BigEndian";
     if (!order.empty() && order != "BigEndian" && order != "LittleEndian")
-        refuse_vtk_line(
-            file, root.line,
-            fmt::format("byte_order=\"{}\"; it must be LittleEndian or BigEndian", excerpt(order)));
+        refuse_line(file, root.line,
+                    fmt::format("byte_order=\"{}\"; it must be LittleEndian or BigEndian", excerpt(order)));
     const std::string_view header = root.attribute("header_type");
     coding.header_bytes = header == "UInt64" ? 8 : 4;
     if (!header.empty() && header != "UInt64" && header != "UInt32")
-        refuse_vtk_line(file, root.line,
-                        fmt::format("header_type=\"{}\"; it must be UInt32 or UInt64", excerpt(header)));
+        refuse_line(file, root.line,
+                    fmt::format("header_type=\"{}\"; it must be UInt32 or UInt64", excerpt(header)));
     coding.compressor_name = root.attribute("compressor");
     coding.compressor = compressor_of(coding.compressor_name);
     return coding;
@@ -69,7 +67,7 @@ std::uint64_t XmlArrays::count_in(const XmlElement& element, std::string_view at
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
     // A count is limited, so that the bytes of three doubles for each item do not overflow.
     if (error != std::errc() || end != text.data() + text.size() || count > (std::uint64_t{1} << 48))
-        refuse_vtk_line(file(), element.line, fmt::format("{}=\"{}\" is no count", attribute, excerpt(text)));
+        refuse_line(file(), element.line, fmt::format("{}=\"{}\" is no count", attribute, excerpt(text)));
     return count;
 }
 
@@ -130,8 +128,8 @@ void XmlArrays::read_words(std::string_view text, std::uint64_t place, const Xml
                        fmt::format("\"{}\" is no number; {}", word, kWriteAgain));
         }
         if (finite && !std::isfinite(*value))
-            refuse_vtk_line(file(), line(begin),
-                            "a place that is no number; remove the point or write its place");
+            refuse_line(file(), line(begin),
+                        "a place that is no number; remove the point or write its place");
         if (count && values.size() == *count)
             refuse_vtk(
                 {&file(), line(words.left().data()), place_of(array).array},

@@ -163,9 +163,9 @@ void find_appended(const Content& content, std::uint64_t from, XmlTree& tree) {
     const std::string_view encoding = element->attribute("encoding");
     tree.appended_base64 = encoding == "base64" || encoding.empty();
     if (!tree.appended_base64 && encoding != "raw")
-        refuse_vtk_line(content.file(), element->line,
-                        fmt::format("appended data in \"{}\", which is not read; write them raw or as base64",
-                                    encoding.substr(0, 40)));
+        refuse_line(content.file(), element->line,
+                    fmt::format("appended data in \"{}\", which is not read; write them raw or as base64",
+                                encoding.substr(0, 40)));
     const std::uint64_t size = content.size();
     std::string_view piece = content.from(from);
     const std::size_t blanks = piece.find_first_not_of(" \t\r\n");
@@ -220,10 +220,10 @@ XmlTree xml_tree(const Content& content, bool may_end_early) {
     if (!good && appended == 0) {
         tree.cut_off = !builder.refused() && builder.at_end_of_file();
         if (!tree.cut_off || !may_end_early || builder.top.empty())
-            refuse_vtk_line(file, builder.line(), builder.complaint());
+            refuse_line(file, builder.line(), builder.complaint());
     }
     if (builder.top.empty() || builder.top.front().name != "VTKFile")
-        refuse_vtk_line(file, 1, "this XML is no file of VTK: its element VTKFile is missing");
+        refuse_line(file, 1, "this XML is no file of VTK: its element VTKFile is missing");
     tree.root = std::move(builder.top.front());
     tree.comments = std::move(builder.comments);
     const bool empty_tag = appended > 1 && content.from(appended - 2, 1).starts_with('/');

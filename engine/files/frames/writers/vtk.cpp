@@ -2,7 +2,6 @@
 // moment; run.pvd lists all of them as parts; fields.pvd lists a .vti file for each record of fields.nc.
 // Arrays have the names that other programs read: id, type (from 1, as in LAMMPS), omega.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <system_error>
@@ -12,9 +11,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/fields_file.hpp"
-#include "engine/files/frames/state_writer.hpp"
-#include "engine/files/frames/stored_world.hpp"
-#include "engine/files/frames/writers/vtk_file.hpp"
 #include "engine/files/frames/writers/vtk_parts.hpp"
 
 namespace grainreel {
@@ -73,40 +69,12 @@ VtkImage grid_of(const FieldsReader& fields, const StoredWorld& world) {
     return image;
 }
 
-class Vtk final : public StateWriter {
+class Vtk final : public VtkWriter {
   public:
     explicit Vtk(const fs::path& folder) : folder_(folder) {
         std::error_code error;
         fs::create_directories(folder_, error);
-        if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
-    }
-
-    void begin(const StoredWorld& world, const StateSupply& supply) override {
-        world_ = world;
-        supply_ = supply;
-        surfaces_ = surfaces_of(world);
-    }
-    bool takes_all() const override { return true; }
-    void contacts(const std::vector<SavedContact>& contacts) override {
-        contacts_ = contacts;
-        has_forces_ = true;
-    }
-    void cell(const std::optional<WorldCell>& now) override { world_.cell = now; }
-    void frame(const State& frame, const std::vector<Link>& touches) override {
-        VtkPolyData grains = vtk_grains(frame, world_, supply_);
-        if (has_forces_) {
-            std::optional<std::vector<Vec3>> forces;
-            if (contacts_) forces = forces_on_grains(frame, *contacts_, world_);
-            grains.point_data.push_back(vtk_forces(frame, forces));
-        }
-        write("grains", 0, frame, std::move(grains));
-        if (!surfaces_.empty()) write("walls", 1, frame, vtk_walls(surfaces_, frame));
-        if (supply_.contacts)
-            write("contacts", 2, frame,
-                  has_forces_ ? contact_lines(frame, contacts_.value_or(std::vector<SavedContact>()), world_)
-                              : contact_lines(frame, touches, world_));
-        contacts_.reset();
-        ++frames_;
+        if (error) throw RunError("{}: cannot be made: {}", folder_.string(), error.message());
     }
     void fields(const FieldsReader& fields, const std::vector<std::size_t>& records) override {
         if (fields.names().empty()) return;
@@ -134,9 +102,13 @@ class Vtk final : public StateWriter {
     }
 
   private:
+    void write(const State& frame, Parts parts) override {
+        write("grains", 0, frame, std::move(parts.grains));
+        if (parts.walls) write("walls", 1, frame, std::move(*parts.walls));
+        if (parts.contacts) write("contacts", 2, frame, std::move(*parts.contacts));
+    }
     void write(const char* name, int part, const State& frame, VtkPolyData data) {
-        // Frames without times are numbered instead.
-        const double time = world_.time_known ? frame.time : static_cast<double>(frames_);
+        const double time = time_of(frame);
         if (world_.time_known) data.facts.time = time;
         if (world_.steps_known) data.facts.step = frame.step;
         const std::string file = fmt::format("{}_{:06d}.vtp", name, frames_);
@@ -145,13 +117,7 @@ class Vtk final : public StateWriter {
     }
 
     fs::path folder_;
-    StoredWorld world_;
-    StateSupply supply_;
-    std::vector<WorldSurface> surfaces_;
-    std::optional<std::vector<SavedContact>> contacts_;  // contacts of the next frame
-    bool has_forces_ = false;                            // whether this frame or one before it has forces
     std::vector<VtkEntry> entries_;
-    std::int64_t frames_ = 0;
 };
 
 }  // namespace

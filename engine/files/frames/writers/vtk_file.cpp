@@ -145,11 +145,6 @@ VtkList VtkList::doubles(std::string name, const std::vector<double>& values, in
     return {std::move(name), "Float64", components, bytes_of(values)};
 }
 
-VtkList VtkList::floats(std::string name, const std::vector<double>& values, int components) {
-    return {std::move(name), "Float32", components,
-            bytes_of(std::vector<float>(values.begin(), values.end()))};
-}
-
 VtkList VtkList::integers(std::string name, const std::vector<std::int64_t>& values) {
     return {std::move(name), "Int64", 1, bytes_of(values)};
 }

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,7 +22,6 @@ struct VtkList {
     std::string bytes;  // the numbers as they lie in memory, little endian
 
     static VtkList doubles(std::string name, const std::vector<double>& values, int components = 1);
-    static VtkList floats(std::string name, const std::vector<double>& values, int components = 1);
     static VtkList integers(std::string name, const std::vector<std::int64_t>& values);
 };
 

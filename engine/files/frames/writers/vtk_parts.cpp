@@ -1,6 +1,6 @@
 #include "engine/files/frames/writers/vtk_parts.hpp"
 
-#include <limits>
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 
@@ -10,9 +10,7 @@ void add_to(std::vector<double>& to, const Vec3& v) {
     to.insert(to.end(), {v.x(), v.y(), v.z()});
 }
 
-}  // namespace
-
-VtkPolyData vtk_grains(const State& frame, const StoredWorld& world, const StateSupply& supply) {
+VtkPolyData grain_points(const State& frame, const StoredWorld& world, const StateSupply& supply) {
     VtkPolyData data;
     std::vector<double> radius, velocity, spin;
     std::vector<std::int64_t> id, type, contacts;
@@ -41,15 +39,19 @@ VtkPolyData vtk_grains(const State& frame, const StoredWorld& world, const State
     return data;
 }
 
-VtkList vtk_forces(const State& frame, const std::optional<std::vector<Vec3>>& forces) {
-    const double none = std::numeric_limits<double>::quiet_NaN();
+// The sum of forces on each grain; NaN where none are known.
+VtkList force_array(const State& frame, const std::optional<std::vector<SavedContact>>& contacts,
+                    const StoredWorld& world) {
+    std::vector<Vec3> forces;
+    if (contacts) forces = forces_on_grains(frame, *contacts, world);
     std::vector<double> numbers;
     for (std::size_t i = 0; i < frame.size(); ++i)
-        add_to(numbers, forces ? (*forces)[i] : Vec3(none, none, none));
+        add_to(numbers, contacts ? forces[i] : Vec3(kUnknown, kUnknown, kUnknown));
     return VtkList::doubles("force", numbers, 3);
 }
 
-VtkPolyData vtk_walls(const std::vector<WorldSurface>& surfaces, const State& frame) {
+// The surfaces in their places at that moment. "wall" is the number of a triangle's surface.
+VtkPolyData wall_triangles(const std::vector<WorldSurface>& surfaces, const State& frame) {
     VtkPolyData data;
     data.cells = VtkPolyData::Cells::triangles;
     data.points_a_cell = 3;
@@ -68,6 +70,33 @@ VtkPolyData vtk_walls(const std::vector<WorldSurface>& surfaces, const State& fr
     data.cell_data = {VtkList::integers("wall", number)};
     data.facts.words.emplace_back("walls", names);
     return data;
+}
+
+}  // namespace
+
+void VtkWriter::begin(const StoredWorld& world, const StateSupply& supply) {
+    world_ = world;
+    supply_ = supply;
+    surfaces_ = surfaces_of(world);
+}
+
+void VtkWriter::contacts(const std::vector<SavedContact>& contacts) {
+    contacts_ = contacts;
+    has_forces_ = true;
+}
+
+void VtkWriter::frame(const State& frame, const std::vector<Link>& touches) {
+    Parts parts;
+    parts.grains = grain_points(frame, world_, supply_);
+    if (has_forces_) parts.grains.point_data.push_back(force_array(frame, contacts_, world_));
+    if (has_walls()) parts.walls = wall_triangles(surfaces_, frame);
+    if (supply_.contacts)
+        parts.contacts = has_forces_
+                             ? contact_lines(frame, contacts_.value_or(std::vector<SavedContact>()), world_)
+                             : contact_lines(frame, touches, world_);
+    write(frame, std::move(parts));
+    contacts_.reset();
+    ++frames_;
 }
 
 }  // namespace grainreel

@@ -1,24 +1,49 @@
-// What VTK's formats show of a frame: its grains as points, its walls as triangles. The lines of contacts are
-// in vtk_file.hpp. Arrays have the names that other programs read: id, type (from 1, as in LAMMPS), omega.
+// What the writers of VTK's formats share: a frame becomes grains as points, walls as triangles and contacts
+// as lines (vtk_file.hpp). Arrays have the names that other programs read: id, type (from 1, as in LAMMPS),
+// omega.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "engine/files/frames/state_archive.hpp"
+#include "engine/files/frames/state_writer.hpp"
 #include "engine/files/frames/stored_world.hpp"
 #include "engine/files/frames/writers/vtk_file.hpp"
 #include "engine/state/container_faces.hpp"
-#include "engine/state/state.hpp"
 
 namespace grainreel {
 
-VtkPolyData vtk_grains(const State& frame, const StoredWorld& world, const StateSupply& supply);
+class VtkWriter : public StateWriter {
+  public:
+    void begin(const StoredWorld& world, const StateSupply& supply) override;
+    bool takes_all() const override { return true; }
+    void contacts(const std::vector<SavedContact>& contacts) override;
+    void cell(const std::optional<WorldCell>& now) override { world_.cell = now; }
+    void frame(const State& frame, const std::vector<Link>& touches) final;
 
-// The forces of forces_on_grains() as an array; NaN where none are known.
-VtkList vtk_forces(const State& frame, const std::optional<std::vector<Vec3>>& forces);
+  protected:
+    // A frame's parts; walls and contacts where the run has them.
+    struct Parts {
+        VtkPolyData grains;
+        std::optional<VtkPolyData> walls, contacts;
+    };
+    virtual void write(const State& frame, Parts parts) = 0;
 
-// The surfaces in their places at that moment. "wall" is the number of a triangle's surface.
-VtkPolyData vtk_walls(const std::vector<WorldSurface>& surfaces, const State& frame);
+    bool has_walls() const { return !surfaces_.empty(); }
+    // Frames without times are numbered instead.
+    double time_of(const State& frame) const {
+        return world_.time_known ? frame.time : static_cast<double>(frames_);
+    }
+
+    StoredWorld world_;
+    StateSupply supply_;
+    std::int64_t frames_ = 0;  // written before this one
+
+  private:
+    std::vector<WorldSurface> surfaces_;
+    std::optional<std::vector<SavedContact>> contacts_;  // contacts of the next frame
+    bool has_forces_ = false;                            // whether this frame or one before it has forces
+};
 
 }  // namespace grainreel

@@ -9,17 +9,14 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/files/frames/state_writer.hpp"
-#include "engine/files/frames/stored_world.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/files/frames/writers/hdf5_tables.hpp"
-#include "engine/files/frames/writers/vtk_file.hpp"
 #include "engine/files/frames/writers/vtk_parts.hpp"
 #include "engine/files/netcdf/hdf5_trial.hpp"
 
@@ -131,11 +128,9 @@ void Block::add_arrays(const std::string& kind, const std::vector<VtkList>& arra
         if (!file_.has(offsets) && steps_ > 0) {
             const std::size_t count =
                 static_cast<std::size_t>(most_rows_[kind]) * static_cast<std::size_t>(array.components);
-            const VtkList none =
-                array.type == "Int64"
-                    ? VtkList::integers(array.name, std::vector<std::int64_t>(count, 0))
-                    : VtkList::doubles(array.name,
-                                       std::vector<double>(count, std::numeric_limits<double>::quiet_NaN()));
+            const VtkList none = array.type == "Int64"
+                                     ? VtkList::integers(array.name, std::vector<std::int64_t>(count, 0))
+                                     : VtkList::doubles(array.name, std::vector<double>(count, kUnknown));
             store(table, none.type, array.components, none.bytes);
             file_.append(offsets, std::vector<std::int64_t>(static_cast<std::size_t>(steps_), 0));
         }
@@ -177,7 +172,7 @@ void Block::end() {
     file_.set_numbers(path("Steps"), "NSteps", {steps_});
 }
 
-class VtkHdf final : public StateWriter {
+class VtkHdf final : public VtkWriter {
   public:
     explicit VtkHdf(const std::filesystem::path& path) : path_(path) {}
     ~VtkHdf() override {
@@ -188,16 +183,14 @@ class VtkHdf final : public StateWriter {
     VtkHdf& operator=(const VtkHdf&) = delete;
 
     void begin(const StoredWorld& world, const StateSupply& supply) override {
-        world_ = world;
-        supply_ = supply;
-        surfaces_ = surfaces_of(world);
+        VtkWriter::begin(world, supply);
         const std::lock_guard lock(hdf5_library());
         file_.emplace(path_);
         file_->add_group("/VTKHDF", true);
         file_->set_numbers("/VTKHDF", "Version", {2, 1});
         file_->set_word("/VTKHDF", "Type", "PartitionedDataSetCollection");
         add_block(grains_, "grains");
-        if (!surfaces_.empty()) add_block(walls_, "walls");
+        if (has_walls()) add_block(walls_, "walls");
         if (supply_.contacts) add_block(contacts_block_, "contacts");
         file_->add_group("/VTKHDF/Assembly", true);
         for (const std::string& name : blocks_) {
@@ -205,32 +198,6 @@ class VtkHdf final : public StateWriter {
             file_->add_group(node, true);
             file_->add_link("/VTKHDF/" + name, node + "/" + name);
         }
-    }
-    bool takes_all() const override { return true; }
-    void contacts(const std::vector<SavedContact>& contacts) override {
-        contacts_ = contacts;
-        has_forces_ = true;
-    }
-    void cell(const std::optional<WorldCell>& now) override { world_.cell = now; }
-    void frame(const State& frame, const std::vector<Link>& touches) override {
-        VtkPolyData grains = vtk_grains(frame, world_, supply_);
-        if (has_forces_) {
-            std::optional<std::vector<Vec3>> forces;
-            if (contacts_) forces = forces_on_grains(frame, *contacts_, world_);
-            grains.point_data.push_back(vtk_forces(frame, forces));
-        }
-        const double time = world_.time_known ? frame.time : static_cast<double>(frames_);
-        const std::lock_guard lock(hdf5_library());
-        grains_->add(grains, time);
-        if (walls_) walls_->add(vtk_walls(surfaces_, frame), time);
-        if (contacts_block_) {
-            const VtkPolyData lines =
-                has_forces_ ? contact_lines(frame, contacts_.value_or(std::vector<SavedContact>()), world_)
-                            : contact_lines(frame, touches, world_);
-            contacts_block_->add(lines, time);
-        }
-        contacts_.reset();
-        ++frames_;
     }
     void fields(const FieldsReader&, const std::vector<std::size_t>& records) override {
         left_out_ = !records.empty();
@@ -247,22 +214,23 @@ class VtkHdf final : public StateWriter {
     }
 
   private:
+    void write(const State& frame, Parts parts) override {
+        const double time = time_of(frame);
+        const std::lock_guard lock(hdf5_library());
+        grains_->add(parts.grains, time);
+        if (parts.walls) walls_->add(*parts.walls, time);
+        if (parts.contacts) contacts_block_->add(*parts.contacts, time);
+    }
     void add_block(std::optional<Block>& block, const std::string& name) {
         block.emplace(*file_, name, static_cast<int>(blocks_.size()));
         blocks_.push_back(name);
     }
 
     std::filesystem::path path_;
-    StoredWorld world_;
-    StateSupply supply_;
-    std::vector<WorldSurface> surfaces_;
     std::optional<Hdf5Tables> file_;
     std::vector<std::string> blocks_;
     std::optional<Block> grains_, walls_, contacts_block_;
-    std::optional<std::vector<SavedContact>> contacts_;  // contacts of the next frame
-    bool has_forces_ = false;                            // whether this frame or one before it has forces
-    bool left_out_ = false;                              // whether the run has fields
-    std::int64_t frames_ = 0;
+    bool left_out_ = false;  // whether the run has fields
 };
 
 }  // namespace
