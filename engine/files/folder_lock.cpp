@@ -149,7 +149,7 @@ void FolderLock::check_there() const {
     if (const std::optional<fs::path> now = place())
         throw RunError("{}: the run's folder was renamed to {} while the run went on", name,
                        as_given(*now, folder_).string());
-    if (is_there(folder_))
+    if (grainreel::is_there(folder_))
         throw RunError(
             "{}: this is no longer the run's folder: it was removed or replaced while the run "
             "went on; nothing more was written there",

@@ -114,7 +114,7 @@ double FreeSpace::height_of_share(double part) const {
     if (measured_) {
         if (heights_.empty()) return 0;
         const double at = part * static_cast<double>(heights_.size() - 1);
-        return heights_[at];
+        return heights_[static_cast<std::size_t>(at)];
     }
     const double wanted = part * volume_;
     double low = container_.base(), high = container_.height;
