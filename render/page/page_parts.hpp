@@ -7,7 +7,6 @@
 
 #include "render/page/bed/page_bed.hpp"
 #include "render/page/bed/page_meshes.hpp"
-#include "render/page/facts/methods.hpp"
 #include "render/page/page_film.hpp"
 #include "render/page/page_words.hpp"
 #include "render/page/report.hpp"

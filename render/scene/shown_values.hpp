@@ -5,7 +5,6 @@
 #include <array>
 #include <string>
 
-#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/units.hpp"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "engine/base/number_text.hpp"
-#include "engine/files/foreign/decimal.hpp"
+#include "engine/files/foreign/bytes/decimal.hpp"
 
 namespace grainreel {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/base/own_folder.hpp"
+#include "engine/base/system/own_folder.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "tests/cli/small_disk.hpp"

@@ -9,7 +9,6 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/state/grains.hpp"
-#include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "engine/files/frames/state_archive.hpp"
 #include "render/app/messages/reporter.hpp"

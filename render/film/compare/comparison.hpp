@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "render/film/compare/member.hpp"
-#include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -10,7 +10,6 @@
 
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
-#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "render/picture/gl/opengl.hpp"
-#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -7,12 +7,9 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "engine/scene/text/units.hpp"
 #include "render/scene/film.hpp"
-#include "render/scene/filmed_scene.hpp"
-#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 

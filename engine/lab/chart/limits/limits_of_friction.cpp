@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/rotation.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
@@ -71,7 +72,7 @@ Finding sticking(bool) {
         const double slip =
             (after.velocity[0].y() + bench_radius * after.spin[0].z()) / (impact.speed * math::sin(pi / 4));
         const double slid = 1 - 3.5 * friction * (1 + e);  // if it slides all the time (small friction)
-        finding.curve.push_back({friction, slip, friction < 0.12 ? slid : friction > 100 ? stuck : unknown});
+        finding.curve.push_back({friction, slip, friction < 0.12 ? slid : friction > 100 ? stuck : kUnknown});
         finding.measured = slip;
     }
     return finding;
@@ -95,7 +96,7 @@ Finding grazing_at_a_wall(double e) {
     for (double degrees = 0; degrees < 90; degrees += degrees < 84 ? 3 : 0.5) {
         const double angle = degrees * pi / 180, ratio = energy_ratio(impact, plan, angle);
         finding.curve.push_back(
-            {degrees, ratio, angle > slides_from ? sliding_energy(e, friction, angle) : unknown});
+            {degrees, ratio, angle > slides_from ? sliding_energy(e, friction, angle) : kUnknown});
         finding.measured = std::max(finding.measured, ratio);
     }
     return finding;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/random.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
@@ -70,7 +71,7 @@ Finding find_limit(const Build& build, const Disturbance& disturbance, double th
     Finding finding;
     finding.theory = theory;
     finding.usual = usual_step() / unit();
-    double stable = unknown;
+    double stable = kUnknown;
     for (double share = 0.5; share < 1.3; share += coarse) {
         const double grown = growth(share);
         finding.curve.push_back(
@@ -192,7 +193,8 @@ Finding bed_limit(bool quick, const PairPlan& pair, double theory) {
         return world;
     };
     Finding finding = find_limit(build, {{1, 1, 1}, 1000}, theory);
-    for (CurvePoint& point : finding.curve) point.theory = unknown;  // no curve, because there are many modes
+    for (CurvePoint& point : finding.curve)
+        point.theory = kUnknown;  // no curve, because there are many modes
     return finding;
 }
 

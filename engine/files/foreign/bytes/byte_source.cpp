@@ -1,4 +1,4 @@
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -88,9 +88,9 @@ Packing packing_of(const FileBytes& file) {
         return Packing::zstd;
     for (const UnreadPacking& packing : unread)
         if (head.starts_with(packing.magic) && really(packing, head))
-            throw UserError(fmt::format("{0}: packed with {1}, which is not read; unpack it first: {2} {3}",
-                                        shown(file.path()), packing.name, packing.remedy,
-                                        shell_word(file.path().filename().string())));
+            throw UserError("{0}: packed with {1}, which is not read; unpack it first: {2} {3}",
+                            shown(file.path()), packing.name, packing.remedy,
+                            shell_word(file.path().filename().string()));
     return Packing::none;
 }
 
@@ -137,9 +137,8 @@ std::string all_bytes(const fs::path& file, std::uint64_t most) {
         const std::size_t got = source->read(all.data() + had, piece);
         all.resize(had + got);
         if (all.size() > most)
-            throw UserError(
-                fmt::format("{}: holds more than {} MB, which is the most that is read of such a file",
-                            shown(file), most >> 20));
+            throw UserError("{}: holds more than {} MB, which is the most that is read of such a file",
+                            shown(file), most >> 20);
         if (got < piece) return all;
     }
 }
@@ -153,7 +152,7 @@ std::string shown(const fs::path& file) {
 
 FileBytes::FileBytes(const fs::path& file) : path_(file) {
     if (const std::string other = other_than_file(file, true); !other.empty())
-        throw UserError(fmt::format("{}: is {}; give an ordinary file", shown(file), other));
+        throw UserError("{}: is {}; give an ordinary file", shown(file), other);
     // O_NONBLOCK keeps open() from waiting if a pipe has just taken the file's name.
     file_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     struct stat about {};
@@ -163,7 +162,7 @@ FileBytes::FileBytes(const fs::path& file) : path_(file) {
     }
     const std::string why = file_ < 0 ? std::strerror(errno) : "it is no ordinary file";
     if (file_ >= 0) ::close(file_);
-    throw UserError(fmt::format("{}: cannot be opened: {}", shown(file), why));
+    throw UserError("{}: cannot be opened: {}", shown(file), why);
 }
 
 FileBytes::~FileBytes() {
@@ -173,7 +172,7 @@ FileBytes::~FileBytes() {
 FileState FileBytes::state() const {
     struct stat about {};
     if (::fstat(file_, &about) != 0)
-        throw UserError(fmt::format("{}: cannot be read: {}", shown(path_), std::strerror(errno)));
+        throw UserError("{}: cannot be read: {}", shown(path_), std::strerror(errno));
     return state_of(about);
 }
 
@@ -183,8 +182,8 @@ std::size_t FileBytes::read_at(std::uint64_t place, char* to, std::size_t size) 
         const ssize_t got = ::pread(file_, to + done, size - done, static_cast<off_t>(place + done));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0)
-            throw UserError(fmt::format("{}: cannot be read from byte {} on: {}", shown(path_), place + done,
-                                        std::strerror(errno)));
+            throw UserError("{}: cannot be read from byte {} on: {}", shown(path_), place + done,
+                            std::strerror(errno));
         if (got == 0) break;
         done += static_cast<std::size_t>(got);
     }
@@ -237,9 +236,9 @@ bool PackedBytes::fill() {
 
 void PackedBytes::damaged(const std::string& why) const {
     throw UserError(
-        fmt::format("{}: byte {}: the packed content is damaged ({}); copy the file again, or unpack what "
-                    "is sound by hand",
-                    shown(file_->path()), read_ - left(), why));
+        "{}: byte {}: the packed content is damaged ({}); copy the file again, or unpack what "
+        "is sound by hand",
+        shown(file_->path()), read_ - left(), why);
 }
 
 // gzip, RFC 1952. A file may have several members, one after the other. Together they are its content.

@@ -1,13 +1,13 @@
-#include "engine/questions/expression.hpp"
+#include "engine/questions/expressions/expression.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 
@@ -20,20 +20,19 @@ namespace {
 // Values are NaN where they are unknown, and so is what depends on them. Truths are 0, 1 or NaN, with
 // Kleene's three-valued logic: "a or b" is true if one is true, whatever the other is. (S. C. Kleene,
 // Introduction to Metamathematics, 1952, section 64.)
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 template <class Of>
 double known_both(double a, double b, const Of& of) {
-    return std::isnan(a) || std::isnan(b) ? unknown : static_cast<double>(of(a, b));
+    return std::isnan(a) || std::isnan(b) ? kUnknown : static_cast<double>(of(a, b));
 }
 
 double opposite(double truth) {
-    return std::isnan(truth) ? unknown : static_cast<double>(truth == 0);
+    return std::isnan(truth) ? kUnknown : static_cast<double>(truth == 0);
 }
 
 double either(double a, double b) {
     if (a == 1 || b == 1) return 1;
-    return std::isnan(a) || std::isnan(b) ? unknown : 0;
+    return std::isnan(a) || std::isnan(b) ? kUnknown : 0;
 }
 
 }  // namespace

@@ -1,20 +1,19 @@
 // What can be asked of a grain: the names that expressions, histograms and tables use.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/questions/expression.hpp"
+#include "engine/base/numbers.hpp"
+#include "engine/questions/expressions/expression.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/scene/text/units.hpp"
 
 namespace grainreel {
 
 // The value of a column for a grain of which it is not known.
-inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // Places, in the frame, of the grains that are asked for.
 using GrainList = std::vector<std::size_t>;
@@ -70,7 +69,6 @@ bool masses_known(const Snapshot& snapshot);
 
 // The grains for which a condition holds. Throws UserError where the expression is no condition.
 GrainList grains_where(const Snapshot& snapshot, const Expression& condition);
-GrainList grains_where(const Snapshot& snapshot, std::string_view text);
 
 // Makes a column from a function of one grain.
 template <double (*value)(const Snapshot&, std::size_t)>

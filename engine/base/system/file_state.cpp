@@ -1,4 +1,4 @@
-#include "engine/base/file_state.hpp"
+#include "engine/base/system/file_state.hpp"
 
 #include <sys/stat.h>
 #include <mutex>

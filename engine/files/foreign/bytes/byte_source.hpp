@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/base/file_state.hpp"
+#include "engine/base/system/file_state.hpp"
 #include "engine/files/frames/state_archive.hpp"
 
 namespace grainreel {

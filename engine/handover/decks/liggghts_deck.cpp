@@ -1,6 +1,6 @@
 // Writes the deck of LIGGGHTS: laws, walls of triangles, exit and feeds, forces, and times.
 #include "engine/base/mathematics.hpp"
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 
 #include <algorithm>
 #include <cmath>

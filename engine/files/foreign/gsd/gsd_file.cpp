@@ -1,4 +1,4 @@
-#include "engine/files/foreign/gsd_file.hpp"
+#include "engine/files/foreign/gsd/gsd_file.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -53,8 +53,7 @@ struct GsdFile::Block {
 
 GsdFile::GsdFile(const std::filesystem::path& file) : file_(file) {
     if (packing_of(file) != Packing::none)
-        throw UserError(
-            fmt::format("{}: a GSD file is not read while it is packed; unpack it", file.string()));
+        throw UserError("{}: a GSD file is not read while it is packed; unpack it", file.string());
     std::error_code error;
     size_ = std::filesystem::file_size(file, error);
     source_ = open_bytes(file);
@@ -62,7 +61,7 @@ GsdFile::GsdFile(const std::filesystem::path& file) : file_(file) {
 }
 
 void GsdFile::fault(std::uint64_t place, const std::string& what) const {
-    throw UserError(fmt::format("{}: byte {}: {}", file_.string(), place, what));
+    throw UserError("{}: byte {}: {}", file_.string(), place, what);
 }
 
 std::string GsdFile::bytes_at(std::uint64_t place, std::uint64_t size) const {
@@ -99,11 +98,11 @@ void GsdFile::read_header() {
 // The names: 64 bytes for each in layer 1, one after the other in layer 2.
 void GsdFile::read_names() {
     const std::string bytes = bytes_at(names_place_, names_size_);
-    for (std::size_t at = 0; at < bytes.size();) {
-        const std::string name = text_at(bytes, at, layer_ == 2 ? bytes.size() : name_size);
+    for (std::size_t begin = 0; begin < bytes.size();) {
+        const std::string name = text_at(bytes, begin, layer_ == 2 ? bytes.size() : name_size);
         if (name.empty()) break;
         names_.push_back(name);
-        at += layer_ == 2 ? name.size() + 1 : name_size;
+        begin += layer_ == 2 ? name.size() + 1 : name_size;
     }
 }
 
@@ -112,12 +111,13 @@ void GsdFile::read_index() {
     std::vector<Block> blocks{{0, header_size},
                               {index_place_, index_place_ + bytes.size()},
                               {names_place_, names_place_ + names_size_}};
-    for (std::size_t at = 0; at < bytes.size(); at += entry_size) {
-        const std::uint64_t place = index_place_ + at;
-        const auto frame = value_at<std::uint64_t>(bytes, at);
-        GsdChunk chunk{value_at<std::uint64_t>(bytes, at + 8), value_at<std::uint64_t>(bytes, at + 16),
-                       value_at<std::uint32_t>(bytes, at + 24), value_at<std::uint8_t>(bytes, at + 30)};
-        const auto name = value_at<std::uint16_t>(bytes, at + 28);
+    for (std::size_t offset = 0; offset < bytes.size(); offset += entry_size) {
+        const std::uint64_t place = index_place_ + offset;
+        const auto frame = value_at<std::uint64_t>(bytes, offset);
+        GsdChunk chunk{
+            value_at<std::uint64_t>(bytes, offset + 8), value_at<std::uint64_t>(bytes, offset + 16),
+            value_at<std::uint32_t>(bytes, offset + 24), value_at<std::uint8_t>(bytes, offset + 30)};
+        const auto name = value_at<std::uint16_t>(bytes, offset + 28);
         if (chunk.place == 0) break;
         const std::uint64_t size = size_of_type(chunk.type);
         if (size == 0) fault(place, fmt::format("a chunk has the type {}, which does not exist", chunk.type));
@@ -130,7 +130,7 @@ void GsdFile::read_index() {
         if (chunk.columns > 0 && chunk.rows > 0)
             blocks.push_back({chunk.place, chunk.place + chunk.rows * chunk.columns * size});
         frames_ = std::max(frames_, static_cast<std::size_t>(frame) + 1);
-        chunks_[names_[name]][static_cast<std::size_t>(frame)] = chunk;
+        chunks_[names_[name]][frame] = chunk;
     }
     hold_apart(std::move(blocks));
 }
@@ -147,8 +147,8 @@ void GsdFile::hold_apart(std::vector<Block> blocks) const {
 const GsdChunk* GsdFile::find(const std::string& name, std::size_t frame) const {
     const auto named = chunks_.find(name);
     if (named == chunks_.end()) return nullptr;
-    const auto found = named->second.find(frame);
-    return found == named->second.end() ? nullptr : &found->second;
+    const auto chunk = named->second.find(frame);
+    return chunk == named->second.end() ? nullptr : &chunk->second;
 }
 
 std::vector<double> GsdFile::numbers(const GsdChunk& chunk) const {
@@ -197,8 +197,8 @@ std::vector<std::string> GsdFile::texts(const GsdChunk& chunk) const {
     const std::string bytes = bytes_at(chunk.place, chunk.rows * chunk.columns * size_of_type(chunk.type));
     std::vector<std::string> texts;
     if (size_of_type(chunk.type) != 1 || chunk.columns == 0) return texts;
-    for (std::size_t at = 0; at < bytes.size(); at += chunk.columns)
-        texts.push_back(text_at(bytes, at, chunk.columns));
+    for (std::size_t begin = 0; begin < bytes.size(); begin += chunk.columns)
+        texts.push_back(text_at(bytes, begin, chunk.columns));
     return texts;
 }
 

@@ -1,4 +1,4 @@
-#include "engine/files/foreign/content.hpp"
+#include "engine/files/foreign/bytes/content.hpp"
 
 #include <algorithm>
 #include <utility>

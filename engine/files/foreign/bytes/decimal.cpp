@@ -1,4 +1,4 @@
-#include "engine/files/foreign/decimal.hpp"
+#include "engine/files/foreign/bytes/decimal.hpp"
 
 #include <array>
 #include <bit>
@@ -60,7 +60,7 @@ constexpr auto inverses = [] {
 
 double scale_exactly(std::uint64_t w, int e) {
     if (e >= 0) {
-        const Wide product = Wide{w} * fives[static_cast<std::size_t>(e)];
+        const Wide product = Wide{w} * fives[e];
         const auto high = static_cast<std::uint64_t>(product >> 64),
                    low = static_cast<std::uint64_t>(product);
         if (high == 0) {

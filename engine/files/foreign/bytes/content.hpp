@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 
 namespace grainreel {
 

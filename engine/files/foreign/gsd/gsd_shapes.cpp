@@ -1,23 +1,22 @@
-#include "engine/files/foreign/gsd_shapes.hpp"
+#include "engine/files/foreign/gsd/gsd_shapes.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
+
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
 // A number above 0 by its name; NaN where there is none.
 double length_in(const nlohmann::json& shape, const char* name) {
     const auto entry = shape.find(name);
-    if (entry == shape.end() || !entry->is_number()) return nothing;
+    if (entry == shape.end() || !entry->is_number()) return kUnknown;
     const double number = entry->get<double>();
-    return number > 0 && std::isfinite(number) ? number : nothing;
+    return number > 0 && std::isfinite(number) ? number : kUnknown;
 }
 
 // The shape of a grain's type; none where there is no such type.
@@ -39,7 +38,7 @@ GsdShape gsd_shape(const std::string& text) {
     GsdShape shape;
     if (!json.is_object() || !json.contains("type") || !json["type"].is_string()) return shape;
     shape.name = json["type"].get<std::string>();
-    Vec3 half = Vec3::Constant(nothing);
+    Vec3 half = Vec3::Constant(kUnknown);
     if (shape.name == "Sphere") half = Vec3::Constant(0.5 * length_in(json, "diameter"));
     if (shape.name == "Ellipsoid")
         half = Vec3(length_in(json, "a"), length_in(json, "b"), length_in(json, "c"));
@@ -62,7 +61,7 @@ void add_half_lengths(RawTable& grains, const std::vector<GsdShape>& shapes) {
         const GsdShape* shape = shape_of_row(grains, shapes, row);
         const Vec3 half = shape && shape->half
                               ? *shape->half
-                              : Vec3::Constant(diameters ? 0.5 * diameters->values[row] : nothing);
+                              : Vec3::Constant(diameters ? 0.5 * diameters->values[row] : kUnknown);
         for (std::size_t k = 0; k < 3; ++k) columns[k].values.push_back(half[static_cast<Eigen::Index>(k)]);
     }
     for (RawColumn& column : columns) grains.columns.push_back(std::move(column));
@@ -77,7 +76,7 @@ void add_diameters(RawTable& grains, const std::vector<GsdShape>& shapes) {
     for (std::size_t row = 0; row < grains.rows; ++row) {
         const GsdShape* shape = shape_of_row(grains, shapes, row);
         column.values.push_back(shape && shape->name == "Sphere" && shape->half ? 2 * shape->half->x()
-                                                                                : nothing);
+                                                                                : kUnknown);
     }
     grains.columns.push_back(std::move(column));
 }

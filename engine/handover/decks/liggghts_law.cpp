@@ -1,5 +1,5 @@
 // Writes a scene's contact law as LIGGGHTS states it: models and their properties by pairs of types.
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -10,8 +10,9 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
-#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 
 namespace grainreel {
 
@@ -88,7 +89,7 @@ std::vector<double> torque(const Snapshot& s, const GrainList& grains) {
 
 std::vector<double> acceleration(const Snapshot& s, const GrainList& grains) {
     return listed(std::vector<int>(s.frame.size()), grains, [&](int, std::size_t i) {
-        return s.forces->acceleration.empty() ? no_value : s.forces->acceleration[i].norm();
+        return s.forces->acceleration.empty() ? kUnknown : s.forces->acceleration[i].norm();
     });
 }
 
@@ -193,7 +194,7 @@ int touches_column(const Snapshot& snapshot, std::string_view who) {
     std::int32_t id = 0;
     const auto [end, failure] = std::from_chars(who.data(), who.data() + who.size(), id);
     if (failure == std::errc() && end == who.data() + who.size() && id >= 0) {
-        if (!snapshot.place_of(id)) throw UserError(fmt::format("touches: no grain has the id {}", id));
+        if (!snapshot.place_of(id)) throw UserError("touches: no grain has the id {}", id);
         return kFirstId - id;
     }
     const auto& species = snapshot.scene.species;
@@ -206,8 +207,8 @@ int touches_column(const Snapshot& snapshot, std::string_view who) {
     std::vector<std::string> all{"wall"};
     for (const Species& one : species) all.push_back(one.name);
     all.insert(all.end(), walls.begin(), walls.end());
-    throw UserError(fmt::format("touches: '{}' is no species, no wall and no id of a grain; there are {}",
-                                excerpt(name), fmt::join(all, ", ")));
+    throw UserError("touches: '{}' is no species, no wall and no id of a grain; there are {}", excerpt(name),
+                    fmt::join(all, ", "));
 }
 
 bool is_touches_column(int number) {

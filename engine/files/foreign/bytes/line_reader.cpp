@@ -1,4 +1,4 @@
-#include "engine/files/foreign/line_reader.hpp"
+#include "engine/files/foreign/bytes/line_reader.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "engine/base/own_folder.hpp"
+#include "engine/base/system/own_folder.hpp"
 
 #include <cerrno>
 #include <cstdlib>
@@ -12,7 +12,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/system/program.hpp"
 
 namespace grainreel {
 
@@ -98,9 +98,9 @@ ScratchFolder::ScratchFolder(const std::string& purpose) {
     if (!error && ::mkdtemp(name.data()) == nullptr) error.assign(errno, std::generic_category());
     if (error)
         throw RunError(
-            fmt::format("{}: no folder for temporary files can be made: {}; set TMPDIR to a folder "
-                        "of yours",
-                        temporary.empty() ? "TMPDIR" : temporary.string(), error.message()));
+            "{}: no folder for temporary files can be made: {}; set TMPDIR to a folder "
+            "of yours",
+            temporary.empty() ? "TMPDIR" : temporary.string(), error.message());
     path_ = name;
 }
 

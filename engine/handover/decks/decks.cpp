@@ -1,4 +1,4 @@
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

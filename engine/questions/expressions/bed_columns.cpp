@@ -5,10 +5,11 @@
 #include <limits>
 #include <optional>
 
+#include "engine/base/numbers.hpp"
 #include "engine/measure/segregation/unlike_neighbours.hpp"
 #include "engine/measure/surface/surface.hpp"
 #include "engine/mesh/surface.hpp"
-#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
@@ -31,7 +32,7 @@ std::vector<double> gaps_to_faces(const Snapshot& s, const GrainList& grains, co
                     : distance_to(face, pose.place, s.frame.position[i]).distance;
             least = std::min(least, gap);
         }
-        gaps.push_back(std::isfinite(least) ? least - s.frame.radius[i] : no_value);
+        gaps.push_back(std::isfinite(least) ? least - s.frame.radius[i] : kUnknown);
     }
     return gaps;
 }
@@ -55,7 +56,7 @@ std::vector<double> wall_gap(const Snapshot& s, const GrainList& grains) {
     if (s.scene.meshes.empty()) return gaps;
     for (std::size_t k = 0; k < grains.size(); ++k) {
         const double gap = std::fmin(gaps[k], gap_to_meshes(s, grains[k]));
-        gaps[k] = std::isfinite(gap) ? gap : no_value;
+        gaps[k] = std::isfinite(gap) ? gap : kUnknown;
     }
     return gaps;
 }
@@ -78,7 +79,7 @@ LargeArray<Place> places_of_all(const Snapshot& s) {
 std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
     SurfaceAxes frame = surface_frame(s.scene);
     if (!(frame.right > frame.left) || s.frame.size() == 0)
-        return std::vector<double>(grains.size(), no_value);
+        return std::vector<double>(grains.size(), kUnknown);
     const Vec3 offset = container_offset(s.scene, s.frame);
     LargeArray<Place> places = places_of_all(s);
     for (Place& one : places) one.position -= Vec3(offset.x(), offset.y(), 0);
@@ -88,7 +89,7 @@ std::vector<double> below_surface(const Snapshot& s, const GrainList& grains) {
         const double bin = std::floor((s.frame.position[i].y() - offset.y() - surface.left) / surface.bin);
         const double last = static_cast<double>(surface.height.size()) - 1;
         if (surface.height.empty()) {
-            depths.push_back(no_value);
+            depths.push_back(kUnknown);
             continue;
         }
         const auto k = static_cast<std::size_t>(std::clamp(bin, 0.0, last));
@@ -155,7 +156,7 @@ std::vector<double> neighbours(const Snapshot& s, const GrainList& grains) {
 
 std::vector<double> unlike_share(const Snapshot& s, const GrainList& grains) {
     return from_around(
-        s, grains, [](const Around& of, std::size_t) { return of.all > 0 ? of.unlike / of.all : no_value; });
+        s, grains, [](const Around& of, std::size_t) { return of.all > 0 ? of.unlike / of.all : kUnknown; });
 }
 
 std::vector<double> fluctuation(const Snapshot& s, const GrainList& grains) {

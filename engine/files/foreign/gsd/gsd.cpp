@@ -12,8 +12,9 @@
 #include <string_view>
 
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/gsd_file.hpp"
-#include "engine/files/foreign/gsd_shapes.hpp"
+#include "engine/base/numbers.hpp"
+#include "engine/files/foreign/gsd/gsd_file.hpp"
+#include "engine/files/foreign/gsd/gsd_shapes.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {
@@ -30,7 +31,7 @@ double default_of(const std::string& name, std::size_t component) {
     if (zeros.count(name) > 0) return 0;
     if (name == "body") return -1;
     if (name == "orientation") return component == 0 ? 1 : 0;
-    return std::numeric_limits<double>::quiet_NaN();
+    return kUnknown;
 }
 
 std::string column_name(const std::string& name, std::size_t component, std::size_t components) {
@@ -69,9 +70,9 @@ class GsdFrames : public RawFile {
 
 GsdFrames::GsdFrames(const std::filesystem::path& path) : RawFile(path), gsd_(path) {
     if (gsd_.schema() != "hoomd")
-        throw UserError(fmt::format("{}: a GSD file of the schema \"{}\" is not read; \"hoomd\" is",
-                                    path.string(), gsd_.schema()));
-    if (gsd_.frames() == 0) throw UserError(fmt::format("{}: has no frame", path.string()));
+        throw UserError("{}: a GSD file of the schema \"{}\" is not read; \"hoomd\" is", path.string(),
+                        gsd_.schema());
+    if (gsd_.frames() == 0) throw UserError("{}: has no frame", path.string());
     facts_.format = "GSD";
     facts_.program = gsd_.application();
     facts_.first_row_id = 0;  // as HOOMD's tags, bonds and groups count
@@ -83,7 +84,7 @@ GsdFrames::GsdFrames(const std::filesystem::path& path) : RawFile(path), gsd_(pa
         RawMoment moment;
         const double grains = scalar("particles/N", frame).value_or(0);
         if (!(grains >= 0 && grains <= static_cast<double>(most)))
-            throw UserError(fmt::format("{}: frame {} has {} grains", path.string(), frame, grains));
+            throw UserError("{}: frame {} has {} grains", path.string(), frame, grains);
         moment.grains = static_cast<std::int64_t>(grains);
         if (gsd_.has("configuration/step")) moment.step = step_of(frame);
         moment.time = time_of(frame);
@@ -166,24 +167,24 @@ void GsdFrames::add_columns(RawTable& grains, const std::string& name, std::size
     if (chunk && own && chunk->rows != grains.rows)
         gsd_.fault(chunk->place, fmt::format("{} has {} rows, and the frame has {} grains", full, chunk->rows,
                                              grains.rows));
-    const bool there = chunk && chunk->rows == grains.rows;
-    if (!there && name == "position" && grains.rows > 0)
+    const bool whole = chunk && chunk->rows == grains.rows;
+    if (!whole && name == "position" && grains.rows > 0)
         gsd_.fault(0, fmt::format("frame {} has {} grains without places", frame, grains.rows));
     static const std::map<std::string, std::size_t> widths{{"position", 3},    {"velocity", 3},
                                                            {"image", 3},       {"angmom", 4},
                                                            {"orientation", 4}, {"moment_inertia", 3}};
     const auto known = widths.find(name);
-    const std::size_t width = known != widths.end() ? known->second : there ? chunk->columns : 1;
-    if (there && chunk->columns != width)
+    const std::size_t width = known != widths.end() ? known->second : whole ? chunk->columns : 1;
+    if (whole && chunk->columns != width)
         gsd_.fault(chunk->place,
                    fmt::format("{} has {} columns in place of {}", full, chunk->columns, width));
     if (width > most_columns) return;
-    const std::vector<double> values = there ? gsd_.numbers(*chunk) : std::vector<double>();
+    const std::vector<double> values = whole ? gsd_.numbers(*chunk) : std::vector<double>();
     for (std::size_t k = 0; k < width; ++k) {
         RawColumn column{column_name(name, k, width), {}, {}};
         column.values.reserve(grains.rows);
         for (std::size_t i = 0; i < grains.rows; ++i) {
-            column.values.push_back(there ? values[i * width + k] : default_of(name, k));
+            column.values.push_back(whole ? values[i * width + k] : default_of(name, k));
             if (name == "position" && !std::isfinite(column.values.back()))
                 gsd_.fault(chunk->place, fmt::format("grain {} of frame {} has no place", i, frame));
         }
@@ -197,12 +198,12 @@ void GsdFrames::add_log(RawTable& grains, const std::string& name, std::size_t f
     if (known == logged_.end()) return;
     const std::size_t width = known->second;
     const GsdChunk* chunk = gsd_.find(name, frame);
-    const bool there = chunk && chunk->rows == grains.rows && chunk->columns == width;
-    const std::vector<double> values = there ? gsd_.numbers(*chunk) : std::vector<double>();
+    const bool whole = chunk && chunk->rows == grains.rows && chunk->columns == width;
+    const std::vector<double> values = whole ? gsd_.numbers(*chunk) : std::vector<double>();
     for (std::size_t k = 0; k < width; ++k) {
         RawColumn column{column_name(name, k, width), {}, {}};
         for (std::size_t i = 0; i < grains.rows; ++i)
-            column.values.push_back(there ? values[i * width + k] : std::numeric_limits<double>::quiet_NaN());
+            column.values.push_back(whole ? values[i * width + k] : kUnknown);
         grains.columns.push_back(std::move(column));
     }
 }

@@ -1,17 +1,17 @@
-#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
-#include "engine/questions/expression.hpp"
+#include "engine/questions/expressions/expression.hpp"
 #include "engine/state/container_faces.hpp"
 
 namespace grainreel {
@@ -81,8 +81,8 @@ int column_called(const Snapshot& snapshot, const std::string& name) {
     std::vector<std::string> names;
     for (const GrainColumn& column : grain_columns()) names.push_back(column.name);
     const std::optional<std::string> meant = nearest_name(name, names);
-    throw UserError(fmt::format("'{}' is no quantity of a grain{}", name,
-                                meant ? fmt::format("; did you mean '{}'?", *meant) : ""));
+    throw UserError("'{}' is no quantity of a grain{}", name,
+                    meant ? fmt::format("; did you mean '{}'?", *meant) : "");
 }
 
 std::vector<Needs> needs_of(std::string_view text) {
@@ -96,7 +96,7 @@ std::vector<Needs> needs_of(std::string_view text) {
         std::optional<Needs> what;
         if (column) what = grain_columns()[*column].needs;
         if (name == "touches") what = Needs::contacts;
-        if (what && std::find(needs.begin(), needs.end(), *what) == needs.end()) needs.push_back(*what);
+        if (what && !contains(needs, *what)) needs.push_back(*what);
         at = std::max(end, at + 1);
     }
     return needs;
@@ -152,10 +152,6 @@ GrainList grains_where(const Snapshot& snapshot, const Expression& condition) {
         if (truth != 0 && !std::isnan(truth)) found.push_back(i);
     }
     return found;
-}
-
-GrainList grains_where(const Snapshot& snapshot, std::string_view text) {
-    return grains_where(snapshot, Expression(text, GrainVocabulary(snapshot)));
 }
 
 // Columns about where a grain is, how it moves, what it is, and how far it came.
@@ -231,7 +227,7 @@ double potential_energy(const Snapshot& s, std::size_t i) {
 
 double start_height(const Snapshot& s, std::size_t i) {
     const auto start = s.start.row_of(s.frame.id[i]);
-    return start ? (s.start.position[*start] - floor_offset(s.scene, s.start)).z() : no_value;
+    return start ? (s.start.position[*start] - floor_offset(s.scene, s.start)).z() : kUnknown;
 }
 
 // How far the grain has risen in the container, which moves itself.
@@ -241,18 +237,18 @@ double rise(const Snapshot& s, std::size_t i) {
 
 double moved(const Snapshot& s, std::size_t i) {
     const auto start = s.start.row_of(s.frame.id[i]);
-    if (!start) return no_value;
+    if (!start) return kUnknown;
     return ((s.frame.position[i] - container_offset(s.scene, s.frame)) -
             (s.start.position[*start] - container_offset(s.scene, s.start)))
         .norm();
 }
 
 double period_displacement(const Snapshot& s, std::size_t i) {
-    return s.displacement.empty() ? no_value : s.displacement[i].norm();
+    return s.displacement.empty() ? kUnknown : s.displacement[i].norm();
 }
 
 double period_rise(const Snapshot& s, std::size_t i) {
-    return s.displacement.empty() ? no_value : s.displacement[i].z();
+    return s.displacement.empty() ? kUnknown : s.displacement[i].z();
 }
 
 }  // namespace

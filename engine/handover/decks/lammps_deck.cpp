@@ -9,7 +9,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/handover/carry.hpp"
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 
 namespace grainreel {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 
 namespace grainreel {
 

@@ -1,5 +1,5 @@
 // Reads an expression and makes its tree. Messages about mistakes give the place.
-#include "engine/questions/expression.hpp"
+#include "engine/questions/expressions/expression.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/text.hpp"
 
 namespace grainreel {
@@ -229,7 +230,7 @@ double ExpressionParser::unit_here(Powers& powers) {
                                    end + 1 < text_.size() && is_letter(text_[end + 1]))))
         ++end;
     const std::string_view text = text_.substr(start, end - start);
-    if (text.empty() || std::find(joining_words.begin(), joining_words.end(), text) != joining_words.end()) {
+    if (text.empty() || contains(joining_words, text)) {
         at_ = before;
         return 1;
     }
@@ -243,9 +244,8 @@ double ExpressionParser::unit_here(Powers& powers) {
 std::size_t ExpressionParser::word() {
     const std::size_t start = at_;
     const std::string name = name_here();
-    if (std::find(joining_words.begin(), joining_words.end(), name) != joining_words.end())
-        fail(start, fmt::format("something is missing before '{}'", name));
-    if (std::find(functions.begin(), functions.end(), name) != functions.end()) return function(name, start);
+    if (contains(joining_words, name)) fail(start, fmt::format("something is missing before '{}'", name));
+    if (contains(functions, name)) return function(name, start);
     skip_spaces();
     if (name == "touches" && text_.substr(at_, 1) == "(") return touches(start);
     return named(name, start);
@@ -383,7 +383,7 @@ std::string ExpressionParser::name_here() {
 
 void ExpressionParser::fail(std::size_t start, const std::string& what) const {
     while (start < text_.size() && std::isspace(static_cast<unsigned char>(text_[start]))) ++start;
-    throw UserError(fmt::format("character {}: {}", start + 1, what));
+    throw UserError("character {}: {}", start + 1, what);
 }
 
 }  // namespace grainreel

@@ -1,7 +1,9 @@
-#include "engine/base/own_files.hpp"
+#include "engine/base/system/own_files.hpp"
 
 #include <cstdlib>
 #include <system_error>
+
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
@@ -13,8 +15,8 @@ std::filesystem::path find_own_files() {
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
     const std::filesystem::path top = program.parent_path().parent_path().parent_path();
     const std::filesystem::path folder = top / "share" / "grainreel";
-    const bool unpacked = !none && program == top / "lib" / "grainreel" / "grainreel" &&
-                          std::filesystem::exists(folder / "files", none);
+    const bool unpacked =
+        !none && program == top / "lib" / "grainreel" / "grainreel" && is_there(folder / "files");
     return unpacked ? folder : std::filesystem::path();
 }
 
@@ -22,8 +24,7 @@ std::filesystem::path find_own_files() {
 void set_file(const char* variable, const std::filesystem::path& file) {
     constexpr int replace = 1;
     const char* users = std::getenv(variable);
-    std::error_code none;
-    if (users == nullptr || !std::filesystem::exists(users, none)) ::setenv(variable, file.c_str(), replace);
+    if (users == nullptr || !is_there(users)) ::setenv(variable, file.c_str(), replace);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "engine/base/program.hpp"
+#include "engine/base/system/program.hpp"
 
 #include <elf.h>
 #include <fmt/format.h>
