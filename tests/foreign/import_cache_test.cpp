@@ -17,7 +17,7 @@
 #include "engine/files/run_names.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "tests/cli/small_disk.hpp"
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 
 namespace grainreel {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {

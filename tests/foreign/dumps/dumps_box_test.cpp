@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "engine/files/foreign/dumps/dump_parts.hpp"
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {

@@ -2,7 +2,7 @@
 #include <cstring>
 #include <limits>
 
-#include "tests/foreign/vtk_files.hpp"
+#include "tests/foreign/vtk/vtk_files.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {

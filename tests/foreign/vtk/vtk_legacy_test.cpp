@@ -1,5 +1,5 @@
 // Tests of the reader of legacy VTK files, text and binary.
-#include "tests/foreign/vtk_files.hpp"
+#include "tests/foreign/vtk/vtk_files.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {

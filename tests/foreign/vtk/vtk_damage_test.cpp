@@ -1,5 +1,5 @@
 // Tests of VTK files that are damaged or cut.
-#include "tests/foreign/vtk_files.hpp"
+#include "tests/foreign/vtk/vtk_files.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {

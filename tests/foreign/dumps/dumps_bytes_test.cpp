@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {

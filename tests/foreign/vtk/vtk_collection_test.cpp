@@ -1,7 +1,7 @@
 // Tests of lists of VTK files: .pvd, .series and .vtm.
 #include <sys/stat.h>
 
-#include "tests/foreign/vtk_files.hpp"
+#include "tests/foreign/vtk/vtk_files.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {

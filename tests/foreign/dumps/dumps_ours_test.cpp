@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 
 namespace grainreel {
 namespace {

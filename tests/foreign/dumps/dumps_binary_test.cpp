@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {

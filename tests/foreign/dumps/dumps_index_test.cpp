@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "engine/files/foreign/dumps/index_file.hpp"
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 #include "tests/support/tells.hpp"
 
 namespace grainreel {
