@@ -9,6 +9,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/grains.hpp"
+#include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/files/run_json.hpp"
 #include "render/page/bed/page_bed.hpp"
 #include "render/page/bed/page_meshes.hpp"
 #include "render/page/page_film.hpp"

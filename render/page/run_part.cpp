@@ -13,6 +13,7 @@
 #include "render/film/sampling/film_frames.hpp"
 #include "render/page/bed/film_colours.hpp"
 #include "render/page/embed.hpp"
+#include "render/page/facts/methods.hpp"
 #include "render/page/page_parts.hpp"
 
 namespace grainreel {

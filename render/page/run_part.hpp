@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/run_json.hpp"
 #include "render/page/embed.hpp"
 #include "render/page/facts/page_facts.hpp"
 #include "render/page/page_measures.hpp"

@@ -191,7 +191,7 @@ constexpr std::array<Row, count> table{{
 }};
 
 const Row& row_of(Word word) {
-    const Row& row = table[word];
+    const Row& row = table[static_cast<std::size_t>(word)];
     GRAINREEL_CHECK(row.word == word);
     return row;
 }
@@ -207,7 +207,8 @@ std::string Wording::operator()(Word word, std::initializer_list<std::string_vie
     const auto mine =
         std::find_if(own.begin(), own.end(), [&](const OwnWord& one) { return one.word == word; });
     const std::string_view pattern =
-        mine != own.end() ? std::string_view(mine->text) : std::string_view(row_of(word).texts[language]);
+        mine != own.end() ? std::string_view(mine->text)
+                          : std::string_view(row_of(word).texts[static_cast<std::size_t>(language)]);
     std::string text;
     for (std::size_t i = 0; i < pattern.size(); ++i) {
         if (!is_part(pattern, i)) {

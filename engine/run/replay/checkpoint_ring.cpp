@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/start/restart.hpp"
 
 namespace grainreel {
 

@@ -18,6 +18,7 @@
 #include "render/film/sources/recorded_scene.hpp"
 #include "render/page/embed.hpp"
 #include "render/page/facts/page_facts.hpp"
+#include "render/page/facts/methods.hpp"
 #include "render/page/page_film.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/page/page_parts.hpp"

@@ -135,7 +135,7 @@ Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, 
 }  // namespace
 
 std::vector<Experiment> restitution_experiments() {
-    const auto silent = Failure::silent;
+    const auto silent = Failing::silent;
     const std::string plan = "the plan's step", steps = "check warns of too few steps; it prints the error";
     return {
         {"restitution 0.02 to 0.999", "largest error of e", silent, plan, restitutions},
@@ -241,7 +241,7 @@ double soft_energy_left(NormalForce law, double e, double gap) {
 }
 
 Experiment detachment(NormalForce law, double e, const std::string& name) {
-    return {"detachment by " + name, "time of a contact / time between impacts", Failure::silent,
+    return {"detachment by " + name, "time of a contact / time between impacts", Failing::silent,
             "check warns of soft contacts", [=](bool quick) {
                 const double time = pi / 2 * (1 + e) * std::sqrt(0.5 * bench_mass() / bench_stiffness);
                 Finding finding;

@@ -30,7 +30,7 @@ void add_rows(const Experiment& experiment, const Finding& finding, ResultTable&
     const bool compares = finding.theory != 0;
     limits.add({name, experiment.varied, cell(finding.theory), cell(finding.measured),
                 cell(compares ? finding.measured / finding.theory : kUnknown), cell(finding.usual),
-                experiment.failure == Failure::loud ? "loud" : "silent", experiment.guard});
+                experiment.failing == Failing::loud ? "loud" : "silent", experiment.guard});
 }
 
 }  // namespace

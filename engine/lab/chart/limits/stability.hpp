@@ -31,12 +31,12 @@ struct Finding {
 
 // How a run fails beyond the limit. loud: the health check stops it. silent: nothing stops it; only a warning
 // before the run, or the user's care, helps.
-enum class Failure { loud, silent };
+enum class Failing { loud, silent };
 
 // stability_drawing() picks curves by the names of experiments.
 struct Experiment {
     std::string name, varied;  // varied: the quantity that is varied, with its unit
-    Failure failure;
+    Failing failing;
     std::string guard;  // what protects a user
     std::function<Finding(bool quick)> run;
 };
