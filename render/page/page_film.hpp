@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/film/codec/ffmpeg.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/page/embed.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/units.hpp"

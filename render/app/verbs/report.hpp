@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/run/folder/folder_job.hpp"
+#include "render/film/sources/film_request.hpp"
 #include "render/page/report.hpp"
 #include "render/scene/filmed_scene.hpp"
 

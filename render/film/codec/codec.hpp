@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/film/codec/ffmpeg.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

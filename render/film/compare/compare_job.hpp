@@ -12,6 +12,7 @@
 #include "render/film/compare/comparison.hpp"
 #include "render/film/production/film_maker.hpp"
 #include "render/film/run/folder_film.hpp"
+#include "render/picture/panels/side_by_side.hpp"
 
 namespace grainreel {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/film/compare/member.hpp"
+#include "render/film/sampling/timeline.hpp"
 #include "render/film/sources/film_request.hpp"
 #include "render/picture/panels/panels.hpp"
 #include "render/scene/filmed_scene.hpp"

@@ -9,6 +9,7 @@
 #include "engine/run/folder/scene_job.hpp"
 #include "render/film/run/folder_film.hpp"
 #include "render/film/sampling/film_frames.hpp"
+#include "render/film/sampling/sampler.hpp"
 #include "render/film/sources/live_shots.hpp"
 #include "render/scene/filmed_scene.hpp"
 

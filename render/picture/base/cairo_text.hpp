@@ -10,6 +10,7 @@
 
 #include "render/picture/base/picture.hpp"
 #include "render/picture/base/view.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/picture/gl/opengl.hpp"
+#include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 

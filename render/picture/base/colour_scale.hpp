@@ -10,6 +10,8 @@
 
 #include "engine/scene/text/units.hpp"
 #include "render/scene/film.hpp"
+#include "render/scene/filmed_scene.hpp"
+#include "render/scene/shown_values.hpp"
 
 namespace grainreel {
 

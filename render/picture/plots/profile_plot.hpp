@@ -10,6 +10,7 @@
 
 #include "engine/measure/fields/coarse_graining.hpp"
 #include "render/picture/base/shot.hpp"
+#include "render/picture/plots/axes.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/scene/filmed_scene.hpp"
 
