@@ -57,7 +57,8 @@ class New final : public Verb {
         check_free(file);
         replace_file(file, fmt::format("#:schema ./{}\n", schema_name) + std::string(scene.text));
         const fs::path schema = file.parent_path() / schema_name;
-        if (            replace_file(schema, scene_schema());
+        if (std::error_code ignored; !fs::exists(fs::symlink_status(schema, ignored)))
+            replace_file(schema, scene_schema());
         reporter.info(fmt::format("wrote {}, a copy of {}; change it, then: {} check {}", file.string(),
                                   scene.name, program_call(), shell_word(file.string())));
         print_exact(file.string() + "\n");
