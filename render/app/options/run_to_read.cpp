@@ -25,7 +25,7 @@ namespace grainreel {
 
 namespace fs = std::filesystem;
 
-fs::path folder_around(const fs::path& path) {
+fs::path folder_holding(const fs::path& path) {
     if (!is_pattern(path) && is_folder(path)) {
         const fs::path whole = fs::absolute(path).lexically_normal();
         return whole.has_filename() ? whole.parent_path() : whole.parent_path().parent_path();
@@ -121,7 +121,7 @@ RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Repor
     const Imported run = cached_import(request);
     reporter.name_import(run.folder, path);
     for (const std::string& line : run.news) reporter.info(line);
-    return {run.folder, folder_around(path), true};
+    return {run.folder, folder_holding(path), true};
 }
 
 // Options for files of other programs.

@@ -175,7 +175,7 @@ class Render final : public Verb {
             throw UserError(
                 "--follow: is for files of other programs; a run of ours is shown by: {} watch {}",
                 program_call(), shell_word(request_.run.string()));
-        FollowFilm film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle()},
+        FollowFilm film(film_, {request_.run, reading_, request_.sets, folder_holding(request_.run), idle()},
                         reporter);
         keep_camera_file(camera_, film.scene().film.camera);
         return tell_folder(film.run(), film_);
