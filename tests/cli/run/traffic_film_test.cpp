@@ -116,7 +116,7 @@ TEST(TrafficFilm, GoesOnFromItsCheckpoint) {
     whole.simulation.save_checkpoint(here / "c.grs");
     ASSERT_GT(whole.simulation.traffic().left, 2);
     whole.simulation.advance(2 * quarter);
-    Filmedconst Scene scene = continued(whole.scene, here / "c.grs");
+    Scene scene = continued(whole.scene, here / "c.grs");
     SimulatedBed on(scene, whole.plan, 2);
     EXPECT_EQ(on.traffic().came, 2);
     on.pack();
