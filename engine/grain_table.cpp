@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 #include <unordered_set>
-#include <utility>
 
 #include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
@@ -69,7 +68,7 @@ class GrainRow {
 
     Vec3 vector(const std::array<const char*, 3>& columns) {
         Vec3 vector;
-        for (int i = 0; i < 3; ++i) vector[i] = number(columns[static_cast<std::size_t>(i)]);
+        for (int i = 0; i < 3; ++i) vector[i] = number(columns[i]);
         return vector;
     }
 
@@ -149,15 +148,14 @@ TableMark write_grain_table(const std::filesystem::path& path, const State& fram
 
 State read_grain_table(const std::filesystem::path& path) {
     std::ifstream file = read_plain(path);
-    if (!file)
-        throw UserError(fmt::format("{}: cannot be opened; give the final.csv of a run", path.string()));
+    if (!file) throw UserError("{}: cannot be opened; give the final.csv of a run", path.string());
     CsvRows rows(file, path);
     const std::optional<TableForm> form = rows.next() ? form_of(rows.text()) : std::nullopt;
     if (!form) {
         throw UserError(
-            fmt::format("{}:1:1: not a table of grains; the first line must be `{}`; of a file of another "
-                        "program, `grainreel export FILE --to grain-table` makes one",
-                        path.string(), plain_header));
+            "{}:1:1: not a table of grains; the first line must be `{}`; of a file of another "
+            "program, `grainreel export FILE --to grain-table` makes one",
+            path.string(), plain_header);
     }
     State frame;
     std::unordered_set<std::int32_t> ids;
@@ -165,7 +163,7 @@ State read_grain_table(const std::filesystem::path& path) {
         GrainRow row(rows);
         read_grain(row, *form, ids, frame);
     }
-    if (frame.size() == 0) throw UserError(fmt::format("{}:2:1: no grains in the table", path.string()));
+    if (frame.size() == 0) throw UserError("{}:2:1: no grains in the table", path.string());
     check_as_written(path, static_cast<std::int64_t>(frame.size()));
     return frame;
 }
@@ -175,8 +173,7 @@ TableMark mark_of_table(std::int64_t grains, std::string_view bytes) {
 }
 
 std::optional<TableMark> mark_in_run_json(const std::filesystem::path& run_json) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(run_json, ignored)) return std::nullopt;
+    if (!is_plain(run_json)) return std::nullopt;
     std::ifstream file = read_plain(run_json);
     const nlohmann::json document = nlohmann::json::parse(file, nullptr, false);
     if (!document.is_object()) return std::nullopt;
@@ -200,14 +197,13 @@ void check_as_written(const std::filesystem::path& table, std::int64_t grains) {
     if (!written) return;
     constexpr const char* advice = "copy it again, or, if you changed it, give it another name";
     if (grains < written->grains)
-        throw UserError(fmt::format("{}: was cut off: it has {} of the {} grains that its run wrote; {}",
-                                    table.string(), grains, written->grains, advice));
+        throw UserError("{}: was cut off: it has {} of the {} grains that its run wrote; {}", table.string(),
+                        grains, written->grains, advice);
     std::ifstream file = read_plain(table);
     const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     if (mark_of_table(grains, bytes).checksum != written->checksum)
-        throw UserError(
-            fmt::format("{}: is not what its run wrote, by the checksum in the run.json beside it; {}",
-                        table.string(), advice));
+        throw UserError("{}: is not what its run wrote, by the checksum in the run.json beside it; {}",
+                        table.string(), advice);
 }
 
 }  // namespace grainreel

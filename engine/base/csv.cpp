@@ -1,7 +1,5 @@
 #include "engine/base/csv.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -86,7 +84,7 @@ void CsvRows::fail(const std::string& what) const {
 }
 
 void CsvRows::fail(std::size_t column, const std::string& what) const {
-    throw UserError(fmt::format("{}:{}:{}: {}", file_.string(), line_, column, what));
+    throw UserError("{}:{}:{}: {}", file_.string(), line_, column, what);
 }
 
 }  // namespace grainreel

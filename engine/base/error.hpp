@@ -3,25 +3,36 @@
 // files include it.
 #pragma once
 
+#include <fmt/core.h>
 #include <exception>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace grainreel {
 
+// What both say, given as a text or as the arguments of fmt::format().
+class Failure : public std::runtime_error {
+  public:
+    explicit Failure(const std::string& text) : std::runtime_error(text) {}
+    template <class First, class... Rest>
+    Failure(fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest)
+        : std::runtime_error(fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
+};
+
 // A mistake in the user's input. what() is the whole line to print:
 // "scene.toml:12:5: what is wrong; what to do". The program ends with exit code 2.
-class UserError : public std::runtime_error {
+class UserError : public Failure {
   public:
-    using std::runtime_error::runtime_error;
+    using Failure::Failure;
 };
 
 // A run that cannot continue: it became unstable, or the disk is full. what() says where, what and the
 // remedy. The program ends with exit code 1.
-class RunError : public std::runtime_error {
+class RunError : public Failure {
   public:
-    using std::runtime_error::runtime_error;
+    using Failure::Failure;
 };
 
 // What a failure says. The standard library's words for memory that is used up tell users nothing.

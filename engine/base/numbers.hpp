@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace grainreel {
+
+// A number that is not known, or that there is none of.
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // The difference x of two coordinates, taken to the nearest periodic image. period: m, 0 where nothing
 // repeats. |x| must be less than 1.5 periods.

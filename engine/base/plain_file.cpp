@@ -1,7 +1,6 @@
 #include "engine/base/plain_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
@@ -53,9 +52,29 @@ std::string other_than_file(const fs::path& path, bool behind_links) {
     }
 }
 
+bool is_there(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
 bool is_plain(const fs::path& path) {
     std::error_code ignored;
     return fs::is_regular_file(path, ignored);
+}
+
+fs::path folder_around(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+void check_folder_around(const fs::path& file, const std::string& name) {
+    const fs::path folder = folder_around(file);
+    if (!is_folder(folder))
+        throw UserError("{}: there is no folder {}; make it first", name, folder.string());
 }
 
 std::ifstream read_plain(const fs::path& path) {
@@ -99,7 +118,7 @@ namespace {
     const std::string other = refused ? other_than_file(path, false) : "";
     const std::string why = other.empty() ? std::strerror(error) : "it is " + other;
     errno = error;  // for replace_file()
-    throw RunError(fmt::format("{}: cannot be written: {}", path.string(), why));
+    throw RunError("{}: cannot be written: {}", path.string(), why);
 }
 
 std::FILE* stream_of(int file, const char* mode) {

@@ -18,8 +18,17 @@ namespace grainreel {
 // ordinary file and where there is nothing. behind_links: whether links are followed.
 std::string other_than_file(const std::filesystem::path& path, bool behind_links);
 
-// Whether an ordinary file has that name, perhaps through a link.
+// Whether anything, a folder, or an ordinary file has that name, perhaps through a link. What cannot be
+// looked at counts as nothing.
+bool is_there(const std::filesystem::path& path);
+bool is_folder(const std::filesystem::path& path);
 bool is_plain(const std::filesystem::path& path);
+
+// The folder that a file is in; "." where its path names none.
+std::filesystem::path folder_around(const std::filesystem::path& file);
+// Throws UserError where a file cannot be made because that folder is not there. name: the file as the user
+// gave it, "--out film.mp4".
+void check_folder_around(const std::filesystem::path& file, const std::string& name);
 
 // Opens an ordinary file for reading. Where there is none, the stream has failed from the start.
 std::ifstream read_plain(const std::filesystem::path& path);

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 
 namespace grainreel {
 

@@ -1,7 +1,5 @@
 #include "engine/base/word_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 
 #include "engine/base/error.hpp"
@@ -92,15 +90,15 @@ bool same_word(std::string_view word, std::string_view lower_case) {
 }
 
 void refuse_file(const std::filesystem::path& file, const std::string& what) {
-    throw UserError(fmt::format("{}: {}", shown(file), what));
+    throw UserError("{}: {}", shown(file), what);
 }
 
 void refuse_line(const std::filesystem::path& file, std::int64_t line, const std::string& what) {
-    throw UserError(fmt::format("{}:{}: {}", shown(file), line, what));
+    throw UserError("{}:{}: {}", shown(file), line, what);
 }
 
 void refuse_byte(const std::filesystem::path& file, std::size_t byte, const std::string& what) {
-    throw UserError(fmt::format("{}: byte {}: {}", shown(file), byte, what));
+    throw UserError("{}: byte {}: {}", shown(file), byte, what);
 }
 
 }  // namespace grainreel

@@ -9,8 +9,6 @@
 #include <cstddef>
 #include <cstring>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 
@@ -146,8 +144,7 @@ ContactsWriter::~ContactsWriter() = default;
 KeptRecords ContactsWriter::kept_of(const std::filesystem::path& path, std::size_t frames) {
     const ContactsReader reader(path);
     if (frames > 0 && !reader.has_all(frames - 1))
-        throw UserError(
-            fmt::format("{}: was cut off; it lacks contacts of the first {} frames", path.string(), frames));
+        throw UserError("{}: was cut off; it lacks contacts of the first {} frames", path.string(), frames);
     const NetcdfFile file = NetcdfFile::open(path);
     for (const char* name : {"frame", "first", "second", "normal", "tangential", "point", "checksum"})
         file.find_variable(name);
@@ -195,9 +192,9 @@ struct ContactsReader::Impl {
 
     [[noreturn]] void damaged(std::size_t row, const char* what) const {
         throw UserError(
-            fmt::format("{}: row {} (the first is 0) is damaged: {}; copy the file again, or let "
-                        "film.colour.by be something else and film.force_chains false",
-                        source, row, what));
+            "{}: row {} (the first is 0) is damaged: {}; copy the file again, or let "
+            "film.colour.by be something else and film.force_chains false",
+            source, row, what);
     }
 
     // Reads a column of `count` rows. set(row, numbers) gets the Width numbers of each.

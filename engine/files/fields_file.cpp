@@ -115,9 +115,9 @@ void FieldsWriter::Impl::define_fields(const FieldSet& set) {
         std::vector<int> dimensions{record};
         Variable variable{-1, {}};
         for (const std::string& axis : field.axes) {
-            const Axis& found = axes.at(named.at(axis));
-            dimensions.push_back(found.dimension);
-            variable.shape.push_back(found.axis.at.size());
+            const Axis& entry = axes.at(named.at(axis));
+            dimensions.push_back(entry.dimension);
+            variable.shape.push_back(entry.axis.at.size());
         }
         GRAINREEL_CHECK(names.insert(field.name).second && axes.count(field.name) == 0);
         variable.id = file.variable(field.name, NC_DOUBLE, dimensions, field.unit);
@@ -197,13 +197,13 @@ FieldsWriter::~FieldsWriter() = default;
 
 void FieldsWriter::write(double begin, double end, const std::vector<FieldValues>& values) {
     Impl& to = *impl_;
-    const std::size_t at = to.records;
+    const std::size_t record = to.records;
     Checksum sum;
     const auto put = [&](int variable, std::vector<std::size_t> shape, const double* numbers) {
         std::vector<std::size_t> start(shape.size() + 1, 0);
         std::size_t count = 1;
         for (const std::size_t length : shape) count *= length;
-        start[0] = at;
+        start[0] = record;
         shape.insert(shape.begin(), 1);
         to.file.put(variable, start, shape, numbers);
         sum.add(numbers, count);
@@ -222,8 +222,8 @@ void FieldsWriter::write(double begin, double end, const std::vector<FieldValues
             put(variable.id, variable.shape, values[set][f].data());
         }
     }
-    for (const std::size_t word : {0, 1}) to.file.put(to.checksum[word], {at}, {1}, &sum.words()[word]);
-    to.file.sync(at + 1);
+    for (const std::size_t word : {0, 1}) to.file.put(to.checksum[word], {record}, {1}, &sum.words()[word]);
+    to.file.sync(record + 1);
     ++to.records;  // only now, because a record that failed does not count
 }
 
@@ -253,7 +253,7 @@ struct FieldsReader::Impl {
     }
 
     [[noreturn]] void damaged(const std::string& what) const {
-        throw UserError(fmt::format("{}: {}; copy the file again", source, what));
+        throw UserError("{}: {}; copy the file again", source, what);
     }
 
     void read_middles(const std::string& name) {

@@ -89,7 +89,7 @@ std::optional<FolderLock> FolderLock::take(const fs::path& folder, const std::st
     const fs::path path = folder / lock_name;
     while (true) {
         if (const std::string other = other_than_file(path, false); !other.empty())
-            throw UserError(fmt::format("{}: is {}, not the lock of a run; remove it", path.string(), other));
+            throw UserError("{}: is {}, not the lock of a run; remove it", path.string(), other);
         const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file < 0) {
             if (holder(folder)) return std::nullopt;  // the file is another user's, and a process has it
@@ -131,8 +131,7 @@ FolderLock::FolderLock(FolderLock&& other) noexcept
     : folder_(std::move(other.folder_)), file_(std::exchange(other.file_, -1)) {}
 
 bool FolderLock::is_there() const {
-    std::error_code error;
-    return file_ >= 0 ? is_same_file(file_, folder_ / lock_name) : fs::is_directory(folder_, error);
+    return file_ >= 0 ? is_same_file(file_, folder_ / lock_name) : is_folder(folder_);
 }
 
 std::optional<fs::path> FolderLock::place() const {
@@ -148,16 +147,14 @@ void FolderLock::check_there() const {
     if (is_there()) return;
     const std::string name = folder_.string();
     if (const std::optional<fs::path> now = place())
-        throw RunError(fmt::format("{}: the run's folder was renamed to {} while the run went on", name,
-                                   as_given(*now, folder_).string()));
-    std::error_code error;
-    if (fs::exists(folder_, error))
+        throw RunError("{}: the run's folder was renamed to {} while the run went on", name,
+                       as_given(*now, folder_).string());
+    if (grainreel::is_there(folder_))
         throw RunError(
-            fmt::format("{}: this is no longer the run's folder: it was removed or replaced while the run "
-                        "went on; nothing more was written there",
-                        name));
-    throw RunError(
-        fmt::format("{}: the run's folder is gone: it was removed or renamed while the run went on", name));
+            "{}: this is no longer the run's folder: it was removed or replaced while the run "
+            "went on; nothing more was written there",
+            name);
+    throw RunError("{}: the run's folder is gone: it was removed or renamed while the run went on", name);
 }
 
 bool FolderLock::follow() {

@@ -11,8 +11,6 @@
 #include <set>
 #include <system_error>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
@@ -29,7 +27,7 @@ namespace {
 constexpr const char *kNames = "names", *kNew = "new", *kEnd = ".end";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& why) {
-    throw RunError(fmt::format("{}: what the run was cannot be kept: {}", path.string(), why));
+    throw RunError("{}: what the run was cannot be kept: {}", path.string(), why);
 }
 
 void check(const std::error_code& error, const fs::path& path) {
@@ -116,7 +114,7 @@ void give_second_name(const fs::path& file, const fs::path& name) {
     check(error, name);
 }
 
-bool is_folder(const fs::path& path) {
+bool is_own_folder(const fs::path& path) {
     return other_than_file(path, false) == "a folder";
 }
 
@@ -139,7 +137,7 @@ std::vector<fs::path> files_of(const fs::path& run) {
     std::vector<fs::path> files;
     for (const fs::path& name : names_in(run)) {
         if (is_file_of_runs(name)) files.push_back(name);
-        if (!is_kept_folder(name) || !is_folder(run / name)) continue;
+        if (!is_kept_folder(name) || !is_own_folder(run / name)) continue;
         for (const fs::path& inside : names_in(run / name)) files.push_back(name / inside);
     }
     return files;
@@ -232,7 +230,7 @@ void FormerFiles::let_go(const fs::path& run) {
 }
 
 bool FormerFiles::is_kept(const fs::path& run) {
-    return is_folder(run / kFormerRun);
+    return is_own_folder(run / kFormerRun);
 }
 
 void FormerFiles::put_back(const fs::path& run) {
@@ -249,7 +247,7 @@ void FormerFiles::put_back(const fs::path& run) {
             fs::remove(kept / name, error);
             check(error, kept / name);
         }
-        if (!is_kept_folder(name) || !is_folder(kept / name)) continue;
+        if (!is_kept_folder(name) || !is_own_folder(kept / name)) continue;
         check(make_plain_folder(run / name), run / name);
         for (const fs::path& inside : names_in(kept / name)) move_back(name / inside);
     }

@@ -14,6 +14,7 @@
 #include "engine/base/counted.hpp"
 #include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
@@ -82,9 +83,8 @@ MeasuresWriter::Cut MeasuresWriter::cut_before(const std::filesystem::path& path
     std::ifstream file = read_plain(path);
     CsvRows rows(file, path);
     if (!rows.next() || !rows.ended() || rows.words() != columns)
-        throw UserError(fmt::format("{}: is missing, or has other columns than this run", path.string()));
-    const auto place =
-        static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "step") - columns.begin());
+        throw UserError("{}: is missing, or has other columns than this run", path.string());
+    const std::size_t place = place_in(columns, "step").value();
     Cut cut{rows.bytes(), 0};
     while (rows.next() && rows.ended() && rows.cells().size() == columns.size()) {
         const double step_of_row = number_in(rows.cells()[place].text).value_or(0);
@@ -99,7 +99,7 @@ void MeasuresWriter::write(const Measures& measures) {
     GRAINREEL_CHECK(measures.names() == columns_);
     std::vector<double> values = measures.values();
     for (double& value : values)
-        if (std::isnan(value)) value = kNoValue;  // a NaN with a sign would be written as -nan
+        if (std::isnan(value)) value = kUnknown;  // a NaN with a sign would be written as -nan
     file_.write(fmt::format("{}\n", fmt::join(values, ",")));
     ++rows_;
 }

@@ -33,8 +33,7 @@ OutflowWriter::Kept OutflowWriter::kept_until(const std::filesystem::path& path,
     std::ifstream file = read_plain(path);
     CsvRows rows(file, path);
     if (!rows.next() || !rows.ended() || rows.text() != header)
-        throw UserError(
-            fmt::format("{}: is missing, or has another first line than `{}`", path.string(), header));
+        throw UserError("{}: is missing, or has another first line than `{}`", path.string(), header);
     Kept kept{rows.bytes(), 0};
     while (rows.next() && rows.ended() && number_in(rows.cells().front().text).value_or(0) <= time) {
         kept.bytes = rows.bytes();
@@ -64,10 +63,8 @@ constexpr double rounding = 1e-9;  // s, by which a time may differ after it was
 
 std::vector<double> column_called(const MeasureTable& table, const char* name,
                                   const std::filesystem::path& file) {
-    const std::vector<std::string>& all = table.columns();
-    const auto found = std::find(all.begin(), all.end(), name);
-    if (found == all.end()) throw UserError(fmt::format("{}: has no column {}", file.string(), name));
-    return table.values(static_cast<std::size_t>(found - all.begin()), 0, table.rows());
+    if (!table.find(name)) throw UserError("{}: has no column {}", file.string(), name);
+    return table.all(name);
 }
 
 }  // namespace
@@ -83,7 +80,7 @@ OutflowSums::OutflowSums(const Scene& scene) {
 std::optional<OutflowSums> OutflowSums::read(const std::filesystem::path& file, const Scene& scene) {
     const auto [table, fault] = read_measures_file(file);
     if (!table) return std::nullopt;
-    if (!fault.empty()) throw UserError(fmt::format("{}; film.outflow = false draws without it", fault));
+    if (!fault.empty()) throw UserError("{}; film.outflow = false draws without it", fault);
     const std::vector<double> times = column_called(*table, "time_s", file),
                               types = column_called(*table, "type", file),
                               radii = column_called(*table, "radius", file);
@@ -93,9 +90,8 @@ std::optional<OutflowSums> OutflowSums::read(const std::filesystem::path& file, 
         const bool in_order = std::isfinite(times[row]) && (row == 0 || times[row] >= times[row - 1]);
         const bool known = types[row] >= 1 && types[row] <= species && types[row] == std::floor(types[row]);
         if (!in_order || !known || !(radii[row] > 0 && std::isfinite(radii[row])))
-            throw UserError(
-                fmt::format("{}:{}: is of another scene or damaged; film.outflow = false draws without it",
-                            file.string(), row + 2));
+            throw UserError("{}:{}: is of another scene or damaged; film.outflow = false draws without it",
+                            file.string(), row + 2);
         record.add(times[row], static_cast<std::int32_t>(types[row]) - 1, radii[row]);
     }
     return record;
@@ -111,7 +107,7 @@ void OutflowSums::add(double time, std::int32_t species, double radius) {
 FlowedOut OutflowSums::until(double time) const {
     const auto after = std::upper_bound(times_.begin(), times_.end(), time + rounding);
     const std::ptrdiff_t gone = after - times_.begin();
-    return {gone, gone > 0 ? mass_[static_cast<std::size_t>(gone - 1)] : 0};
+    return {gone, gone > 0 ? mass_[gone - 1] : 0};
 }
 
 }  // namespace grainreel

@@ -1,5 +1,4 @@
 // Reads run.json, of which nothing is trusted.
-#include <array>
 #include <charconv>
 #include <concepts>
 #include <cstdint>
@@ -11,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_json.hpp"
 
@@ -154,11 +152,10 @@ RunStatus status_of(const std::string& word) {
 
 // The file as JSON. fault: becomes what is wrong with the file, if anything is.
 Json parsed(const std::filesystem::path& path, std::string& fault) {
-    std::error_code error;
     const std::string name = path.string();
     std::ifstream file = read_plain(path);
     if (!file) {
-        fault = name + (std::filesystem::exists(path, error) ? ": cannot be read" : ": is missing");
+        fault = name + (is_there(path) ? ": cannot be read" : ": is missing");
         return {};
     }
     Json document = Json::parse(file, nullptr, false);

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
-#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void cannot_make(const fs::path& path, const std::error_code& error) {
-    throw UserError(fmt::format("{}: the folder cannot be made: {}; choose another with --out", path.string(),
-                                error.message()));
+    throw UserError("{}: the folder cannot be made: {}; choose another with --out", path.string(),
+                    error.message());
 }
 
 // Whether something has that name, even a link to nowhere.
@@ -39,7 +39,7 @@ bool taken(const fs::path& path) {
 
 bool is_empty_folder(const fs::path& path) {
     std::error_code error;
-    return fs::is_directory(path, error) && fs::is_empty(path, error) && !error;
+    return is_folder(path) && fs::is_empty(path, error) && !error;
 }
 
 bool is_real_folder(const fs::directory_entry& entry) {
@@ -89,9 +89,7 @@ IsOurs is_ours_in_meshes(const fs::path& run) {
 // its runs count as entries of runs.
 std::optional<fs::path> foreign_file(const fs::path& run) {
     const std::vector<std::string> panels = read_run_json(run / "run.json").record.panels;
-    const auto is_panel = [&](const fs::path& name) {
-        return std::find(panels.begin(), panels.end(), name.string()) != panels.end();
-    };
+    const auto is_panel = [&](const fs::path& name) { return contains(panels, name.string()); };
     const auto is_ours = [&](const fs::directory_entry& entry) {
         const fs::path name = entry.path().filename();
         return is_real_folder(entry) ? is_folder_of_runs(name) || is_panel(name) : is_file_of_runs(name);
@@ -116,8 +114,8 @@ std::optional<fs::path> foreign_file(const fs::path& run) {
 }
 
 [[noreturn]] void refuse_in_use(const fs::path& path, const std::string& holder) {
-    throw UserError(fmt::format("--out {}: is in use by {}; wait until that ends, or choose another name",
-                                path.string(), holder));
+    throw UserError("--out {}: is in use by {}; wait until that ends, or choose another name", path.string(),
+                    holder);
 }
 
 void check_not_in_use(const fs::path& path) {
@@ -126,9 +124,9 @@ void check_not_in_use(const fs::path& path) {
 
 void check_holds_run(const fs::path& path) {
     if (!taken(path / "run.json")) {
-        throw UserError(fmt::format(
+        throw UserError(
             "--out {}: holds no run (no run.json), so --force leaves it alone; choose another name",
-            path.string()));
+            path.string());
     }
 }
 
@@ -139,9 +137,9 @@ void check_replaceable(const fs::path& path) {
         if (panel.find('/') == std::string::npos) check_not_in_use(path / panel);
     if (const auto foreign = foreign_file(path)) {
         throw UserError(
-            fmt::format("--out {}: holds {}, which is no file of a run, so --force leaves the folder "
-                        "alone; move that file away or choose another name",
-                        path.string(), foreign->lexically_relative(path).string()));
+            "--out {}: holds {}, which is no file of a run, so --force leaves the folder "
+            "alone; move that file away or choose another name",
+            path.string(), foreign->lexically_relative(path).string());
     }
 }
 
@@ -177,9 +175,9 @@ void RunFolder::check(const fs::path& out, bool force) {
         check_not_in_use(path);
         if (!force) {
             throw UserError(
-                fmt::format("--out {}: exists already; choose another name, or --force to replace "
-                            "it when the new run is complete",
-                            path.string()));
+                "--out {}: exists already; choose another name, or --force to replace "
+                "it when the new run is complete",
+                path.string());
         }
         return check_holds_run(path);
     }
@@ -206,8 +204,8 @@ void RunFolder::adopt(const fs::path& path) {
     // The log must not exist yet. So if two runs start together, only one gets the folder.
     const int log = ::open((path / "log.txt").c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (log < 0) {
-        throw UserError(fmt::format("--out {}: the folder cannot be used: {}; choose another name",
-                                    path.string(), std::generic_category().message(errno)));
+        throw UserError("--out {}: the folder cannot be used: {}; choose another name", path.string(),
+                        std::generic_category().message(errno));
     }
     ::close(log);
     lock_ = locked(path);
@@ -245,8 +243,8 @@ void RunFolder::move_aside(const fs::path& path) {
     std::error_code error;
     fs::rename(path, aside, error);
     if (error) {
-        throw UserError(fmt::format("--out {}: the old run cannot be moved aside: {}; choose another name",
-                                    path.string(), error.message()));
+        throw UserError("--out {}: the old run cannot be moved aside: {}; choose another name", path.string(),
+                        error.message());
     }
     previous_ = aside;
     previous_lock_->renamed(aside);
@@ -286,8 +284,7 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail(const fs::path& file, const std::error_code& error) {
-    throw RunError(
-        fmt::format("{}: the copy of a mesh or path cannot be written: {}", file.string(), error.message()));
+    throw RunError("{}: the copy of a mesh or path cannot be written: {}", file.string(), error.message());
 }
 
 bool holds(const fs::path& file, const std::string& hash) {
@@ -301,9 +298,7 @@ bool holds(const fs::path& file, const std::string& hash) {
 // The present place of a file in a folder that was moved aside.
 fs::path place_now(const fs::path& file, const fs::path& folder, const fs::path& previous) {
     const fs::path inside = file.lexically_relative(fs::absolute(folder).lexically_normal());
-    std::error_code ignored;
-    if (previous.empty() || inside.empty() || *inside.begin() == ".." || fs::exists(file, ignored))
-        return file;
+    if (previous.empty() || inside.empty() || *inside.begin() == ".." || is_there(file)) return file;
     return previous / inside;
 }
 
@@ -319,7 +314,7 @@ void keep_file(const fs::path& from, const std::string& hash, const fs::path& to
     if (error) fail(to, error);
     if (!holds(part, hash)) {
         fs::remove(part, error);
-        throw UserError(fmt::format("{}: has changed since it was read; start again", from.string()));
+        throw UserError("{}: has changed since it was read; start again", from.string());
     }
     fs::rename(part, to, error);
     if (error) fail(to, error);

@@ -13,7 +13,6 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <utility>
 
 #include "engine/base/error.hpp"

@@ -6,9 +6,8 @@
 #include <string_view>
 #include <system_error>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/scene/scene_file.hpp"
 
@@ -66,7 +65,7 @@ constexpr std::array<std::string_view, 9> growing_files{
 
 template <std::size_t Count>
 bool has(const std::array<std::string_view, Count>& names, const fs::path& name) {
-    return std::find(names.begin(), names.end(), name.string()) != names.end();
+    return contains(names, name.string());
 }
 
 // "still-0.500s.png", which `compare --at` writes.
@@ -83,8 +82,8 @@ void check_plain(const fs::path& path, bool folder) {
     const std::string other = other_than_file(path, false);
     if (other == (folder ? "a folder" : "")) return;
     if (folder && other.empty() && !fs::exists(path)) return;
-    throw UserError(fmt::format("{}: is {}, where a run has {} of its own; remove it", path.string(),
-                                other.empty() ? "a file" : other, folder ? "a folder" : "a file"));
+    throw UserError("{}: is {}, where a run has {} of its own; remove it", path.string(),
+                    other.empty() ? "a file" : other, folder ? "a folder" : "a file");
 }
 
 void check_all_inside(const fs::path& folder) {
@@ -99,11 +98,8 @@ void check_all_inside(const fs::path& folder) {
 }  // namespace
 
 bool is_of_another_engine(const fs::path& run) {
-    std::error_code ignored;
-    const fs::path folder = fs::is_directory(run, ignored) ? run : run.parent_path();
-    const auto has_facts = [&](const fs::path& place) {
-        return fs::is_regular_file(place / kHandoverFacts, ignored);
-    };
+    const fs::path folder = is_folder(run) ? run : run.parent_path();
+    const auto has_facts = [&](const fs::path& place) { return is_plain(place / kHandoverFacts); };
     if (has_facts(folder) || has_facts(folder / kHandoverFolder)) return true;
     // While a dump is followed, its moments lie in a hidden folder of the hand-over.
     return folder.filename().string().starts_with('.') && folder.has_parent_path() &&

@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
 #include "engine/base/triangle_mesh.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
@@ -28,8 +26,7 @@ struct WearReader::Impl {
         bounds.resize(2 * records);
         if (records > 0) file.get(file.find_variable("time_bounds"), {0, 0}, {records, 2}, bounds.data());
         if (!std::is_sorted(bounds.begin(), bounds.end()))
-            throw UserError(
-                fmt::format("{}: is damaged: its records do not follow each other; copy it again", name));
+            throw UserError("{}: is damaged: its records do not follow each other; copy it again", name);
     }
 
     struct Mesh {
@@ -40,15 +37,15 @@ struct WearReader::Impl {
     void check(const Mesh& mesh) const {
         if (!file.has_variable(wear_field(mesh.name)))
             throw UserError(
-                fmt::format("{}: has no wear of {}; run the scene with output.instruments = "
-                            "[\"wear\"]",
-                            name, mesh.name));
+                "{}: has no wear of {}; run the scene with output.instruments = "
+                "[\"wear\"]",
+                name, mesh.name);
         const std::size_t there = file.length("triangle_of_" + mesh.name);
         if (there != mesh.triangles)
             throw UserError(
-                fmt::format("{}: has {} triangles of {}, but scene.toml beside it has {}; they are "
-                            "of two runs",
-                            name, there, mesh.name, mesh.triangles));
+                "{}: has {} triangles of {}, but scene.toml beside it has {}; they are "
+                "of two runs",
+                name, there, mesh.name, mesh.triangles);
     }
 
     std::vector<double> values(const std::string& field, std::size_t record, std::size_t count) const {
@@ -81,7 +78,7 @@ std::shared_ptr<const std::vector<MeshWear>> WearReader::until(double time) cons
     auto all = std::make_shared<std::vector<MeshWear>>();
     for (const auto& [name, triangles] : impl_->meshes) {
         if (ended == 0)
-            all->push_back({std::vector<double>(triangles, kNoValue), std::vector<double>(triangles, 0.0)});
+            all->push_back({std::vector<double>(triangles, kUnknown), std::vector<double>(triangles, 0.0)});
         else
             all->push_back({impl_->values(pressure_field(name), ended - 1, triangles),
                             impl_->values(wear_field(name), ended - 1, triangles)});

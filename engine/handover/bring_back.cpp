@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/outflow_csv.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/grain_table.hpp"
 #include "engine/handover/deck_dump.hpp"
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 #include "engine/handover/grain_count.hpp"
 #include "engine/handover/handed_grains.hpp"
 #include "engine/handover/handover_folder.hpp"
@@ -44,8 +45,7 @@ std::unique_ptr<ReturningFolder> ReturningFolder::take(const fs::path& folder, c
     const fs::path path = folder / name;
     std::error_code failed;
     fs::create_directory(path, failed);
-    if (!fs::is_directory(path, failed))
-        throw RunError(fmt::format("{}: cannot be made: {}", path.string(), failed.message()));
+    if (!is_folder(path)) throw RunError("{}: cannot be made: {}", path.string(), failed.message());
     std::optional<FolderLock> lock = FolderLock::take(path, "");
     if (!lock || !lock->is_there()) return nullptr;
     // Removes what a killed process has left.
@@ -60,9 +60,8 @@ ReturningFolder::~ReturningFolder() {
 }
 
 void ReturningFolder::move_out() const {
-    std::error_code missing;
     for (const char* name : made_names)
-        if (fs::exists(path() / name, missing)) fs::rename(path() / name, path().parent_path() / name);
+        if (is_there(path() / name)) fs::rename(path() / name, path().parent_path() / name);
 }
 
 namespace {
@@ -82,9 +81,8 @@ std::unique_ptr<ReturningFolder> returning(const fs::path& folder,
 [[noreturn]] void fail_without_moment(const fs::path& folder, const HandoverFacts& facts,
                                       const std::string& what, const std::string& advice) {
     const JobEnd job = job_end(folder, facts);
-    if (!job.failure.empty())
-        throw RunError(fmt::format("{}: {}; {}", facts.dump.string(), what, job.failure));
-    throw UserError(fmt::format("{}: {}{}", facts.dump.string(), what, advice));
+    if (!job.failure.empty()) throw RunError("{}: {}; {}", facts.dump.string(), what, job.failure);
+    throw UserError("{}: {}{}", facts.dump.string(), what, advice);
 }
 
 // What the user should know of a run that was brought back before.
@@ -116,8 +114,7 @@ bool read_back(ReturnedRun& run, const HandoverFacts& facts, const std::function
 BroughtBack bring_back(const fs::path& folder, const std::string& version,
                        const std::function<bool(double)>& watcher) {
     const HandoverFacts facts = read_handover(folder);
-    std::error_code missing;
-    if (!fs::is_regular_file(facts.dump, missing))
+    if (!is_plain(facts.dump))
         fail_without_moment(folder, facts, "is not there",
                             fmt::format(", so {} has not run yet; run it: sh {}", name_of(facts.engine),
                                         shell_word((folder / "run.sh").string())));
@@ -187,8 +184,7 @@ struct ReturnedRun::Impl {
     std::int32_t id_of(std::int64_t there) const {
         const std::int64_t id = there <= facts.grains ? there - 1 : there - 1 - facts.glued;
         if (id < 0)
-            throw UserError(
-                fmt::format("{}: has an atom {}, which is none of the scene's", facts.dump.string(), there));
+            throw UserError("{}: has an atom {}, which is none of the scene's", facts.dump.string(), there);
         return static_cast<std::int32_t>(id);
     }
 
@@ -198,10 +194,9 @@ struct ReturnedRun::Impl {
             const std::int32_t species = frame.species[i];
             if (species < 0 || species >= std::ssize(scene.species) || !(frame.radius[i] > 0))
                 throw UserError(
-                    fmt::format("{}: step {}: atom {} has type {} and radius {}, which none of the "
-                                "scene's grains has",
-                                facts.dump.string(), frame.step, frame.id[i], std::int64_t{species} + 1,
-                                frame.radius[i]));
+                    "{}: step {}: atom {} has type {} and radius {}, which none of the "
+                    "scene's grains has",
+                    facts.dump.string(), frame.step, frame.id[i], std::int64_t{species} + 1, frame.radius[i]);
             frame.id[i] = id_of(frame.id[i]);
         }
         frame.step -= facts.shift;

@@ -1,6 +1,5 @@
 #include "engine/handover/deck_dump.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,8 +46,7 @@ void DeckDump::read_anew() {
 bool DeckDump::look() {
     if (!is_plain(file_)) return false;
     if (is_shorter())
-        throw RunError(
-            fmt::format("{}: got shorter while it was read; it was truncated or replaced", file_.string()));
+        throw RunError("{}: got shorter while it was read; it was truncated or replaced", file_.string());
     std::error_code error;
     size_ = std::max(size_, fs::file_size(file_, error));
     try {
@@ -93,8 +91,8 @@ void DeckDump::check_columns(const RawTable& table) const {
     const bool same = std::equal(table.columns.begin(), table.columns.end(), kColumns.begin(), kColumns.end(),
                                  [](const RawColumn& one, const char* name) { return one.name == name; });
     if (!same)
-        throw UserError(fmt::format(
-            "{}: has other columns; the dump is to be that of the deck as it was written", file_.string()));
+        throw UserError("{}: has other columns; the dump is to be that of the deck as it was written",
+                        file_.string());
 }
 
 State DeckDump::frame_of(const RawFrame& raw) const {
@@ -102,11 +100,11 @@ State DeckDump::frame_of(const RawFrame& raw) const {
     for (std::size_t row = 0; row < raw.grains.rows; ++row)
         for (const RawColumn& column : columns)
             if (!std::isfinite(column.values[row]))
-                throw UserError(fmt::format(
+                throw UserError(
                     "{}: step {}: atom {} has {} as {}, which is no finite number; the dump is to be "
                     "that of the deck as it was written",
                     file_.string(), raw.step.value_or(0), columns[0].values[row], column.values[row],
-                    column.name));
+                    column.name);
     State frame;
     frame.step = raw.step.value_or(0);
     const auto whole = [](double value) {  // the nearest that fits
@@ -141,7 +139,7 @@ void trim_dump(const fs::path& dump, std::int64_t step) {
     }
     std::error_code failed;
     fs::resize_file(dump, kept, failed);
-    if (failed) throw RunError(fmt::format("{}: cannot be cut: {}", dump.string(), failed.message()));
+    if (failed) throw RunError("{}: cannot be cut: {}", dump.string(), failed.message());
 }
 
 }  // namespace grainreel

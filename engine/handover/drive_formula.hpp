@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

@@ -1,6 +1,5 @@
 #include "engine/handover/grain_count.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 
 #include "engine/base/counted.hpp"
@@ -34,13 +33,13 @@ GrainCount::Change GrainCount::compare(const State* before, const State& now) co
     if (before == nullptr) {
         const std::int64_t wanted = scene_.grains_at_start();
         if (static_cast<std::int64_t>(now.size()) < wanted)
-            throw RunError(fmt::format("{}: step {}: has {}, but the scene begins with {}", file_, now.step,
-                                       counted(now.size(), "grain"), wanted));
+            throw RunError("{}: step {}: has {}, but the scene begins with {}", file_, now.step,
+                           counted(now.size(), "grain"), wanted);
         if (static_cast<std::int64_t>(now.size()) > wanted && scene_.feeds.empty())
             throw RunError(
-                fmt::format("{}: step {}: has {}, but the scene begins with {} and feeds none; is it "
-                            "the dump of another run?",
-                            file_, now.step, counted(now.size(), "grain"), wanted));
+                "{}: step {}: has {}, but the scene begins with {} and feeds none; is it "
+                "the dump of another run?",
+                file_, now.step, counted(now.size(), "grain"), wanted);
         return change;
     }
     std::size_t k = 0;
@@ -53,19 +52,19 @@ GrainCount::Change GrainCount::compare(const State* before, const State& now) co
         if (!may_leave(*before, i, now.time - before->time)) {
             const Vec3& at = before->position[i];
             throw RunError(
-                fmt::format("{}: step {}: grain {} is missing; it was last at ({:.4g}, {:.4g}, {:.4g}) m "
-                            "in step {}, where it could not leave: it broke through a wall, which is "
-                            "too soft for its speed, or left the box of the run",
-                            file_, now.step, before->id[i], at.x(), at.y(), at.z(), before->step));
+                "{}: step {}: grain {} is missing; it was last at ({:.4g}, {:.4g}, {:.4g}) m "
+                "in step {}, where it could not leave: it broke through a wall, which is "
+                "too soft for its speed, or left the box of the run",
+                file_, now.step, before->id[i], at.x(), at.y(), at.z(), before->step);
         }
         change.left.push_back(i);
     }
     change.came += static_cast<std::int64_t>(now.size() - k);
     if (change.came > 0 && scene_.feeds.empty())
         throw RunError(
-            fmt::format("{}: step {}: has {} grains that the frame before lacks, and the scene feeds "
-                        "none; is it the dump of another run?",
-                        file_, now.step, change.came));
+            "{}: step {}: has {} grains that the frame before lacks, and the scene feeds "
+            "none; is it the dump of another run?",
+            file_, now.step, change.came);
     return change;
 }
 

@@ -1,7 +1,6 @@
 #include "engine/handover/guarded_process.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -74,7 +73,7 @@ void kill_children() {
     pid_t child = 0;
     for (ssize_t got = 0; (got = ::read(file, text.data(), text.size())) > 0;) {
         for (ssize_t k = 0; k < got; ++k) {
-            const char c = text[static_cast<std::size_t>(k)];
+            const char c = text[k];
             if (c >= '0' && c <= '9') {
                 child = 10 * child + (c - '0');
             } else if (child > 0) {
@@ -168,8 +167,8 @@ GuardedProcess::GuardedProcess(const std::vector<std::string>& words, const std:
     }
     for (const int file : {alive_, result_})
         if (file >= 0) ::close(file);
-    throw RunError(fmt::format("{}: cannot be started, with its output in {}: {}", words.front(),
-                               output.string(), std::strerror(why)));
+    throw RunError("{}: cannot be started, with its output in {}: {}", words.front(), output.string(),
+                   std::strerror(why));
 }
 
 GuardedProcess::~GuardedProcess() {

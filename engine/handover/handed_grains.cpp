@@ -23,7 +23,7 @@ std::vector<double> numbers_of(const std::string& line, std::size_t count, const
     for (std::string_view word = words.next_in_line(); !word.empty(); word = words.next_in_line())
         if (const std::optional<double> number = number_in(word)) numbers.push_back(*number);
     if (numbers.size() != count)
-        throw UserError(fmt::format("{}: is no row of {} numbers; hand the scene over again", place, count));
+        throw UserError("{}: is no row of {} numbers; hand the scene over again", place, count);
     return numbers;
 }
 
@@ -43,8 +43,7 @@ std::string text_of(const Vec3& v) {
 
 HandedGrains::HandedGrains(const std::filesystem::path& data, std::string dump)
     : dump_(std::move(dump)), data_(data.string()) {
-    std::error_code missing;
-    if (std::filesystem::is_regular_file(data, missing)) read(data);
+    if (is_plain(data)) read(data);
 }
 
 void HandedGrains::read(const std::filesystem::path& data) {
@@ -69,9 +68,9 @@ void HandedGrains::read(const std::filesystem::path& data) {
             const std::vector<double> n = numbers_of(line, 7, place);
             if (moving == grains_.size() || grains_[moving].id != std::llround(n[0]))
                 throw UserError(
-                    fmt::format("{}: is of atom {:.0f}, and its place is not in this order; hand "
-                                "the scene over again",
-                                place, n[0]));
+                    "{}: is of atom {:.0f}, and its place is not in this order; hand "
+                    "the scene over again",
+                    place, n[0]);
             grains_[moving].velocity = Vec3(n[1], n[2], n[3]);
             grains_[moving++].spin = Vec3(n[4], n[5], n[6]);
         }
@@ -80,8 +79,8 @@ void HandedGrains::read(const std::filesystem::path& data) {
 }
 
 void HandedGrains::refuse(const State& first, std::size_t row, const std::string& what) const {
-    throw UserError(fmt::format("{}: step {}: atom {} has {}; is it the dump of another run?", dump_,
-                                first.step, first.id[row], what));
+    throw UserError("{}: step {}: atom {} has {}; is it the dump of another run?", dump_, first.step,
+                    first.id[row], what);
 }
 
 void HandedGrains::check_first(const State& first, double period) const {
@@ -127,15 +126,15 @@ void check_unchanged(const State& before, const State& now, const std::string& d
         if (k == before.size() || before.id[k] != now.id[i]) continue;
         if (now.species[i] != before.species[k])
             throw RunError(
-                fmt::format("{}: step {}: grain {} has type {}, and had type {} in step {}; grains keep "
-                            "their type, so the dump is damaged or of several runs",
-                            dump, now.step, now.id[i], std::int64_t{now.species[i]} + 1,
-                            std::int64_t{before.species[k]} + 1, before.step));
+                "{}: step {}: grain {} has type {}, and had type {} in step {}; grains keep "
+                "their type, so the dump is damaged or of several runs",
+                dump, now.step, now.id[i], std::int64_t{now.species[i]} + 1,
+                std::int64_t{before.species[k]} + 1, before.step);
         if (!same(now.radius[i], before.radius[k]))
             throw RunError(
-                fmt::format("{}: step {}: grain {} has radius {:.6g}, and had {:.6g} in step {}; grains "
-                            "keep their radius, so the dump is damaged or of several runs",
-                            dump, now.step, now.id[i], now.radius[i], before.radius[k], before.step));
+                "{}: step {}: grain {} has radius {:.6g}, and had {:.6g} in step {}; grains "
+                "keep their radius, so the dump is damaged or of several runs",
+                dump, now.step, now.id[i], now.radius[i], before.radius[k], before.step);
     }
 }
 

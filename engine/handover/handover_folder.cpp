@@ -10,7 +10,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 #include "engine/handover/peer_process.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "engine/plan/resolved_scene.hpp"
@@ -29,8 +29,7 @@ bool grains_leave(const CarriedScene& carried) {
 std::string facts_text(const CarriedScene& carried, const StartState& start, const std::string& version) {
     SceneText out;
     std::int64_t glued = 0, fed = 0;
-    for (const StartState::Grain& grain : start.grains)
-        glued += carried.types[static_cast<std::size_t>(grain.type - 1)].glued;
+    for (const StartState::Grain& grain : start.grains) glued += carried.types[grain.type - 1].glued;
     for (const Species& one : carried.scene.species) fed += one.fed;
     out.comment(
         "What was handed over, and what was changed for it. `render` and `inspect` of this folder read it.");
@@ -61,7 +60,7 @@ std::string facts_text(const CarriedScene& carried, const StartState& start, con
 }
 
 [[noreturn]] void fail(const fs::path& file, const toml::source_region& at, const std::string& what) {
-    throw UserError(fmt::format("{}:{}:{}: {}", file.string(), at.begin.line, at.begin.column, what));
+    throw UserError("{}:{}:{}: {}", file.string(), at.begin.line, at.begin.column, what);
 }
 
 // Reads a value that must be there.
@@ -101,8 +100,7 @@ class FactsReader {
     const toml::node& at(const char* key) const {
         const toml::node* node = table_.get(key);
         if (node == nullptr)
-            throw UserError(
-                fmt::format("{}:1:1: '{}' is missing; hand the scene over again", file_.string(), key));
+            throw UserError("{}:1:1: '{}' is missing; hand the scene over again", file_.string(), key);
         return *node;
     }
     const fs::path& file_;
@@ -147,8 +145,7 @@ void write_handover(const fs::path& folder, const CarriedScene& carried, const S
 }
 
 bool is_handover(const fs::path& folder) {
-    std::error_code ignored;
-    return fs::is_regular_file(folder / kHandoverFacts, ignored);
+    return is_plain(folder / kHandoverFacts);
 }
 
 HandoverFacts read_handover(const fs::path& folder) {

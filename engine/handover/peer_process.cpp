@@ -19,7 +19,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/base/text.hpp"
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 
 namespace grainreel {
 
@@ -62,9 +62,7 @@ fs::path program_named(const std::string& name) {
     for (std::size_t from = 0; from <= folders.size();) {
         const std::size_t to = std::min(folders.find(':', from), folders.size());
         const fs::path place = fs::path(folders.substr(from, to - from)) / name;
-        std::error_code ignored;
-        if (to > from && fs::is_regular_file(place, ignored) && ::access(place.c_str(), X_OK) == 0)
-            return fs::absolute(place);
+        if (to > from && is_plain(place) && ::access(place.c_str(), X_OK) == 0) return fs::absolute(place);
         from = to + 1;
     }
     return {};
@@ -77,10 +75,10 @@ std::string version_in(PeerEngine engine, const std::string& text) {
 
 void check_version(PeerEngine engine, const std::string& version) {
     if (engine == PeerEngine::lammps && version.rfind("28 Mar 2023", 0) == 0)
-        throw UserError(fmt::format(
+        throw UserError(
             "LAMMPS {}: its `fix wall/gran` ignores the group, so that each wall would act several times on "
             "every grain; use another version (Debian 12 has 29 Sep 2021)",
-            version));
+            version);
 }
 
 EngineProgram find_engine(PeerEngine engine) {
@@ -89,14 +87,14 @@ EngineProgram find_engine(PeerEngine engine) {
     found.path = program_named(what.program);
     if (found.path.empty())
         throw UserError(
-            fmt::format("{}: there is no program `{}` in PATH; Debian has it in the package {} "
-                        "(sudo apt-get install {})",
-                        name_of(engine), what.program, what.package, what.package));
+            "{}: there is no program `{}` in PATH; Debian has it in the package {} "
+            "(sudo apt-get install {})",
+            name_of(engine), what.program, what.package, what.package);
     // Even with -h, LIGGGHTS opens its log in the working folder, unless it gets -log none.
     found.version = version_in(engine, said_by(found.path, "-log none -h"));
     if (found.version.empty())
-        throw UserError(fmt::format("{}: {} does not say which version it is; try `{} -h`", name_of(engine),
-                                    found.path.string(), what.program));
+        throw UserError("{}: {} does not say which version it is; try `{} -h`", name_of(engine),
+                        found.path.string(), what.program);
     check_version(engine, found.version);
     return found;
 }
@@ -104,22 +102,21 @@ EngineProgram find_engine(PeerEngine engine) {
 RankWords rank_words(PeerEngine engine, const EngineProgram& program, const std::string& deck, int ranks,
                      bool goes_on) {
     const int processors = usable_processors();
-    if (ranks < 1) throw UserError(fmt::format("--ranks {}: must be at least 1", ranks));
+    if (ranks < 1) throw UserError("--ranks {}: must be at least 1", ranks);
     if (ranks > processors && goes_on)
         throw UserError(
-            fmt::format("the run has {} ranks, but there are {} processors here; resume it where "
-                        "there are as many",
-                        ranks, processors));
+            "the run has {} ranks, but there are {} processors here; resume it where "
+            "there are as many",
+            ranks, processors);
     if (ranks > processors)
         throw UserError(
-            fmt::format("--ranks {}: usable here: {}; give --ranks {}, or hand the scene over to "
-                        "a cluster (`handover`)",
-                        ranks, counted(processors, "processor"), processors));
+            "--ranks {}: usable here: {}; give --ranks {}, or hand the scene over to "
+            "a cluster (`handover`)",
+            ranks, counted(processors, "processor"), processors);
     const fs::path mpirun = program_named("mpirun");
     if (mpirun.empty())
-        throw UserError(
-            fmt::format("{}: there is no program `mpirun` in PATH; Debian has it in the package openmpi-bin",
-                        name_of(engine)));
+        throw UserError("{}: there is no program `mpirun` in PATH; Debian has it in the package openmpi-bin",
+                        name_of(engine));
     RankWords all;
     all.words = {mpirun.string(), "-n", std::to_string(ranks)};
     if (said_by(mpirun, "--version").find("Open MPI") != std::string::npos) {

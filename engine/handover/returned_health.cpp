@@ -37,8 +37,7 @@ constexpr std::uint64_t kRow = std::uint64_t{1} << kBits, kLayer = kRow << kBits
 std::uint64_t cell_at(const Vec3& place, const Vec3& low, double width) {
     std::array<std::uint64_t, 3> n{};
     for (int k = 0; k < 3; ++k)
-        n[static_cast<std::size_t>(k)] =
-            1 + static_cast<std::uint64_t>(std::clamp((place[k] - low[k]) / width, 0.0, kMostCells));
+        n[k] = 1 + static_cast<std::uint64_t>(std::clamp((place[k] - low[k]) / width, 0.0, kMostCells));
     return n[0] + kRow * n[1] + kLayer * n[2];
 }
 
@@ -171,9 +170,7 @@ void ReturnedHealth::Impl::find_walls(const Grains& grains, const DrivePose& pos
     const Place& place = grains.place[grain];
     const auto faces = static_cast<std::int32_t>(around.faces.size());
     for (std::int32_t f = 0; f < faces; ++f) {
-        const double overlap =
-            place.radius -
-            distance_at(around.faces[static_cast<std::size_t>(f)], pose, place.position).distance;
+        const double overlap = place.radius - distance_at(around.faces[f], pose, place.position).distance;
         if (overlap > 0) contacts.push_back({grain, -1 - f, false, overlap, place.radius});
     }
     for (std::size_t m = 0; m < around.meshes.size(); ++m) {
@@ -196,22 +193,19 @@ void ReturnedHealth::Impl::find_contacts(const Grains& grains, std::int64_t step
     for_overlapping(bodies, around.period, [&](std::int32_t a, std::int32_t b, double overlap) {
         if (a > b) std::swap(a, b);
         if (a >= free) return;  // two glued grains
-        const double smaller =
-            std::min(bodies[static_cast<std::size_t>(a)].radius, bodies[static_cast<std::size_t>(b)].radius);
+        const double smaller = std::min(bodies[a].radius, bodies[static_cast<std::size_t>(b)].radius);
         if (b < free)
             contacts.push_back({a, b, false, overlap, smaller});
         else
-            contacts.push_back(
-                {a, -1 - around.glued.face[static_cast<std::size_t>(b - free)], true, overlap, smaller});
+            contacts.push_back({a, -1 - around.glued.face[b - free], true, overlap, smaller});
     });
     for (std::int32_t i = 0; i < free; ++i) find_walls(grains, pose, i);
 }
 
 const PairPlan& ReturnedHealth::Impl::pair_of(const Grains& grains, const Seen& contact) const {
-    const auto species = static_cast<std::size_t>(grains.species[static_cast<std::size_t>(contact.first)]);
+    const auto species = static_cast<std::size_t>(grains.species[contact.first]);
     if (contact.second >= 0)
-        return plan.between(
-            species, static_cast<std::size_t>(grains.species[static_cast<std::size_t>(contact.second)]));
+        return plan.between(species, static_cast<std::size_t>(grains.species[contact.second]));
     const std::size_t wall = static_cast<std::size_t>(-1 - contact.second);
     if (wall >= around.faces.size()) return plan.at_mesh(wall - around.faces.size(), species);
     return contact.glued ? plan.glued[species] : plan.wall[species];

@@ -82,10 +82,10 @@ std::vector<Vec3> lattice_places(const CarriedScene& carried, std::size_t count,
         if (fill(room, spacing * largest, 0.49 * (spacing - 1) * largest, largest / 2, count,
                  carried.scene.run.seed, places))
             return places;
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: {} grains do not fit the container without touching, as they must where the other engine packs; "
         "let ours pack ({} above {}), or take the lid off",
-        carried.scene.where("start"), count, carried.pack_option, count));
+        carried.scene.where("start"), count, carried.pack_option, count);
 }
 
 using Grain = StartState::Grain;
@@ -128,7 +128,7 @@ void laid_out(const CarriedScene& carried, StartState& start) {
         start.grains[i] = {.id = drawn.id[i] + 1,
                            .type = drawn.species[i] + 1,
                            .diameter = 2 * drawn.place[i].radius,
-                           .density = carried.types[static_cast<std::size_t>(drawn.species[i])].density,
+                           .density = carried.types[drawn.species[i]].density,
                            .position = places[k]};
     }
     std::sort(start.grains.begin(), start.grains.end(),

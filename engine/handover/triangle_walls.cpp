@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
-#include <optional>
 
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
@@ -147,9 +146,9 @@ TriangleWall wall_of(const CarriedScene& carried, const Face& face, std::size_t 
     const Room room = room_of(carried, wall);
     if ((room.high - room.low).minCoeff() <= 0)
         throw UserError(
-            fmt::format("{}: the wall \"{}\" would leave the room that the run is in; end the run "
-                        "earlier",
-                        carried.scene.file, face.name));
+            "{}: the wall \"{}\" would leave the room that the run is in; end the run "
+            "earlier",
+            carried.scene.file, face.name);
     if (face.kind == Face::Kind::cylinder)
         shape_tube(carried, face, room, wall);
     else
@@ -165,7 +164,7 @@ TriangleWall wall_of(const CarriedScene& carried, const CarriedMesh& carried_mes
     wall.surface = carried_mesh.surface;
     const std::vector<Body> bodies = bodies_of(carried.scene);
     const std::int32_t body = first_mesh_body(carried.scene) + static_cast<std::int32_t>(carried_mesh.number);
-    set_motion(carried, bodies[static_cast<std::size_t>(body)], wall);
+    set_motion(carried, bodies[body], wall);
     wall.shape = mesh.shape();
     wall.curvature = smooth_bend(wall.shape);
     return wall;
@@ -175,7 +174,7 @@ void write_stl(const fs::path& file, const TriangleMesh& mesh) {
     std::string text = "solid wall\n";
     for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
         std::array<Vec3, 3> p;
-        for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.vertices[static_cast<std::size_t>(triangle[k])];
+        for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.vertices[triangle[k]];
         const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
         text += fmt::format("facet normal {} {} {}\nouter loop\n", normal.x(), normal.y(), normal.z());
         for (const Vec3& corner : p)
@@ -185,7 +184,7 @@ void write_stl(const fs::path& file, const TriangleMesh& mesh) {
     std::ofstream out(file, std::ios::binary);
     out << text << "endsolid wall\n";
     out.close();
-    if (!out) throw RunError(fmt::format("{}: cannot be written; is the disk full?", file.string()));
+    if (!out) throw RunError("{}: cannot be written; is the disk full?", file.string());
 }
 
 void include(CarriedScene& carried, const Vec3& low, const Vec3& high) {

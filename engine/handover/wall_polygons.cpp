@@ -61,7 +61,7 @@ Vec3 on_rectangle(const Vec3& middle, double angle, const Vec3& low, const Vec3&
 }
 
 Vec3 normal_of(const TriangleMesh& mesh, const TriangleMesh::Triangle& t) {
-    const auto at = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    const auto at = [&](std::size_t k) { return mesh.vertices[t[k]]; };
     return (at(1) - at(0)).cross(at(2) - at(0)).normalized();
 }
 
@@ -154,8 +154,8 @@ double smooth_bend(const TriangleMesh& mesh) {
     std::map<Edge, std::vector<Vec3>> edges;  // by their places, because STL does not share corners
     for (const TriangleMesh::Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
-            Vec3 a = mesh.vertices[static_cast<std::size_t>(t[k])];
-            Vec3 b = mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+            Vec3 a = mesh.vertices[t[k]];
+            Vec3 b = mesh.vertices[t[(k + 1) % 3]];
             if (std::lexicographical_compare(b.data(), b.data() + 3, a.data(), a.data() + 3)) std::swap(a, b);
             edges[{a.x(), a.y(), a.z(), b.x(), b.y(), b.z()}].push_back(normal_of(mesh, t));
         }

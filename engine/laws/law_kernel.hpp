@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/plan/plan.hpp"
 
 namespace grainreel {

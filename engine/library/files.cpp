@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/plain_file.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/state_writer.hpp"
 #include "engine/run/stored/stored_run.hpp"
@@ -191,11 +192,9 @@ void FrameWriter::Impl::leave_nothing() {
 
 void FrameWriter::Impl::make(const std::string& format) {
     std::error_code error;
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder, error))
-        throw UserError(fmt::format("{}: there is no folder {}; make it first", name(), folder.string()));
+    check_folder_around(file, name());
     if (std::filesystem::exists(std::filesystem::symlink_status(file, error)))
-        throw UserError(fmt::format("{}: exists already; choose another name", name()));
+        throw UserError("{}: exists already; choose another name", name());
     made = true;
     writer = frame_writer(format, file);
 }

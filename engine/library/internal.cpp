@@ -8,10 +8,10 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <string_view>
 #include <utility>
 
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/mesh/load_mesh.hpp"
@@ -350,7 +350,7 @@ Mesh Mesh::from_file(const std::filesystem::path& file, double scale) {
 
 ContactLaw::~ContactLaw() = default;
 double ContactLaw::stored_energy(const Touch&, ContactMemory) const {
-    return std::numeric_limits<double>::quiet_NaN();
+    return kUnknown;
 }
 
 FrameSource::~FrameSource() = default;

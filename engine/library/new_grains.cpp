@@ -1,8 +1,5 @@
 #include "engine/library/new_grains.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "engine/base/numbers.hpp"
@@ -46,7 +43,7 @@ grainreel::ComingGrain grain_inside(const NewGrain& grain, const grainreel::Scen
     if (grain.species < 0 || grain.species >= std::ssize(scene.species))
         throw Error(fmt::format("a new grain is of species {}; there are {}, which count from 0",
                                 grain.species, scene.species.size()));
-    const Species& kind = scene.species[static_cast<std::size_t>(grain.species)];
+    const Species& kind = scene.species[grain.species];
     check_radius(grain, kind);
     check_density(grain);
     grainreel::ComingGrain inner;

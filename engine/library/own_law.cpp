@@ -50,9 +50,9 @@ struct Memory {
     // Calls a function with all numbers in the order of the history. kernel_.turns is in the same order.
     template <class Visit>
     void each(int n, int v, const Visit& visit) {
-        for (int k = 0; k < n; ++k) visit(numbers[static_cast<std::size_t>(k)]);
+        for (int k = 0; k < n; ++k) visit(numbers[k]);
         for (int k = 0; k < v; ++k) {
-            Vector& vector = vectors[static_cast<std::size_t>(k)];
+            Vector& vector = vectors[k];
             visit(vector.x), visit(vector.y), visit(vector.z);
         }
         for (int k = 0; k < 3; ++k) visit(before[k]);
@@ -65,7 +65,7 @@ struct Memory {
     }
     void carry(int v, const Vec3& turn, const Vec3& normal) {
         for (int k = 0; k < v; ++k) {
-            Vector& vector = vectors[static_cast<std::size_t>(k)];
+            Vector& vector = vectors[k];
             vector = outside(carried(inside(vector), turn, normal));
         }
     }
@@ -144,9 +144,7 @@ LawParameters OwnLaw::parameters_of(const std::vector<PairPlan>& kinds) {
 }
 
 OwnLaw& OwnLaw::of(const LawParameters& table) {
-    const auto half = [&](Parameter p) {
-        return static_cast<std::uintptr_t>(table.values[static_cast<std::size_t>(p * table.kinds)]);
-    };
+    const auto half = [&](Parameter p) { return static_cast<std::uintptr_t>(table.values[p * table.kinds]); };
     return *reinterpret_cast<OwnLaw*>(half(address_high) << 32 | half(address_low));
 }
 

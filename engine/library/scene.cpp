@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "engine/base/lists.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -28,8 +28,7 @@ Scene scene_from(const NamedText& from, const std::vector<std::string>& settings
 std::size_t place_of_species(const grainreel::Scene& scene, const std::string& name) {
     std::vector<std::string> names;
     for (const Species& one : scene.species) names.push_back(one.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    if (const auto place = place_in(names, name)) return *place;
     throw Error(fmt::format("contact: '{}' is no species; there are {}", name, fmt::join(names, ", ")));
 }
 

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/base/lists.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/library/new_grains.hpp"
 #include "engine/measure/columns.hpp"
@@ -59,7 +61,7 @@ class LawChooser {
             chosen.push_back(name.empty() || one.name == name);
             names.push_back(one.name);
         }
-        if (std::find(chosen.begin(), chosen.end(), true) != chosen.end()) return chosen;
+        if (contains(chosen, true)) return chosen;
         throw Error(fmt::format("a contact law is chosen for {} = \"{}\"; it may be {}{}, or empty for any",
                                 member, name, fmt::join(names, ", "), member == "second" ? ", walls" : ""));
     }
@@ -136,9 +138,7 @@ namespace {
 std::unique_ptr<grainreel::SimulatedBed> at_checkpoint(const grainreel::Scene& scene, const Plan& plan,
                                                        const std::filesystem::path& file) {
     const std::string name = file.string();
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored))
-        throw Error(fmt::format("{}: there is no such file", name));
+    if (!is_plain(file)) throw Error(fmt::format("{}: there is no such file", name));
     if (!is_checkpoint(file))
         throw Error(
             fmt::format("{}: is no checkpoint; give a file that save_checkpoint() or a run wrote", name));
@@ -281,8 +281,7 @@ Error no_column(const grainreel::Scene& scene, const std::vector<std::string>& t
 double Simulation::measure(const std::string& column) const {
     impl_->need_grains();
     const std::vector<std::string>& names = impl_->running->measured();
-    if (std::find(names.begin(), names.end(), column) == names.end())
-        throw no_column(impl_->inner, names, column);
+    if (!contains(names, column)) throw no_column(impl_->inner, names, column);
     const double value = impl_->running->measure(column);
     impl_->rethrow();
     return value;
@@ -336,9 +335,8 @@ void Simulation::remove(const std::vector<std::int32_t>& ids) {
 
 void Simulation::save_checkpoint(const std::filesystem::path& file) const {
     impl_->need_grains();
-    std::error_code ignored;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder, ignored))
+    if (!is_folder(folder))
         throw Error(fmt::format("{}: there is no folder {}; make it first", file.string(), folder.string()));
     told([&] { impl_->running->save_checkpoint(file); });
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/measure/observer_list.hpp"
 #include "engine/scene/bed.hpp"
@@ -163,8 +164,7 @@ const std::vector<std::string>& columns_from_zero() {
 ColumnAxis axis_of_column(const Scene& scene, const std::string& column) {
     const std::vector<std::string>& names = columns_from_zero();
     ColumnAxis axis;
-    axis.from_zero = std::find(names.begin(), names.end(), column) != names.end() ||
-                     is_of_a_species(scene, column, "_outflow") ||
+    axis.from_zero = contains(names, column) || is_of_a_species(scene, column, "_outflow") ||
                      is_of_a_species(scene, column, "_height_m");
     axis.expected = expected_of(scene, column);
     return axis;

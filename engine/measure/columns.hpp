@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/output.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace grainreel {

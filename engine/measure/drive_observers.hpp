@@ -2,8 +2,7 @@
 // floor.
 #pragma once
 
-#include <limits>
-
+#include "engine/base/numbers.hpp"
 #include "engine/measure/observer.hpp"
 #include "engine/scene/drive_schedule.hpp"
 
@@ -47,7 +46,7 @@ class DriveNow final : public Observer {
             frequency = now.frequency;
             const double amplitude = grown_share(drive, cycles) * now.amplitude;
             g_level = Drive{true, now.frequency, amplitude}.g_level(m.gravity.norm());
-            if (m.gravity.isZero(0)) g_level = std::numeric_limits<double>::quiet_NaN();
+            if (m.gravity.isZero(0)) g_level = kUnknown;
         }
         row.insert(row.end(), {frequency, g_level});
     }

@@ -132,11 +132,11 @@ void check_way_of_a_step(const HealthLimits& limits, const Grains& grains, std::
     const double way = velocities(grains).size() * limits.clock.step;
     if (!(way > limits.smallest_radius)) return;
     throw RunError(
-        fmt::format("{}: grains pass each other by {:.2g} of the smallest radius in one step, {} the "
-                    "fastest, so that they "
-                    "may meet unseen; take a smaller run.step",
-                    moment(limits.clock, step), way / limits.smallest_radius,
-                    grain_name(limits, grains, fastest_of(grains))));
+        "{}: grains pass each other by {:.2g} of the smallest radius in one step, {} the "
+        "fastest, so that they "
+        "may meet unseen; take a smaller run.step",
+        moment(limits.clock, step), way / limits.smallest_radius,
+        grain_name(limits, grains, fastest_of(grains)));
 }
 
 // Checks that grains are in the box around a closed vessel, in the vessel's own frame. This costs almost
@@ -151,9 +151,9 @@ void check_vessel(const HealthLimits& limits, const Surroundings& around, const 
         const Vec3 place = pose.at_rest(grains.place[i].position);
         if ((place - facts.low).minCoeff() >= 0 && (facts.high - place).minCoeff() >= 0) continue;
         throw RunError(
-            fmt::format("{}: {} went through \"{}\"; take a smaller run.step or a larger stiffness of "
-                        "its contacts",
-                        moment(limits.clock, step), grain_name(limits, grains, i), vessel.name));
+            "{}: {} went through \"{}\"; take a smaller run.step or a larger stiffness of "
+            "its contacts",
+            moment(limits.clock, step), grain_name(limits, grains, i), vessel.name);
     }
 }
 
@@ -258,28 +258,27 @@ DeepestContact check_state(const HealthLimits& limits, const Surroundings& aroun
     const DrivePose pose = around.motion.at(step);
     for (std::size_t i = 0; i < grains.size(); ++i) {
         if (!finite(grains, i)) {
-            throw RunError(fmt::format("{}: {} is no longer a number; take a smaller run.step",
-                                       moment(limits.clock, step), grain_name(limits, grains, i)));
+            throw RunError("{}: {} is no longer a number; take a smaller run.step",
+                           moment(limits.clock, step), grain_name(limits, grains, i));
         }
         for (const Face& face : around.faces) {
             if (distance_at(face, pose, grains.place[i].position).distance > -grains.place[i].radius)
                 continue;
             const auto grain = static_cast<std::int32_t>(i);
             const std::string presses = advice_against_press(pressing_wall(around, show, grain, grain));
-            throw RunError(fmt::format(
+            throw RunError(
                 "{}: {} went through the {}; {}", moment(limits.clock, step), grain_name(limits, grains, i),
                 face.name,
-                presses.empty() ? "take a smaller run.step or a larger contact.wall.stiffness" : presses));
+                presses.empty() ? "take a smaller run.step or a larger contact.wall.stiffness" : presses);
         }
     }
     check_vessel(limits, around, grains, step);
     check_way_of_a_step(limits, grains, step);
     DeepestContact deepest = deepest_contact(limits, around, grains, show, step);
     if (deepest.share > limits.overlap)
-        throw RunError(fmt::format("{}: {} overlaps {} by {:.2f} of the smaller radius; {}",
-                                   moment(limits.clock, step),
-                                   grain_name(limits, grains, index_of_id(grains, deepest.grain)),
-                                   deepest.other, deepest.share, deepest.remedy));
+        throw RunError("{}: {} overlaps {} by {:.2f} of the smaller radius; {}", moment(limits.clock, step),
+                       grain_name(limits, grains, index_of_id(grains, deepest.grain)), deepest.other,
+                       deepest.share, deepest.remedy);
     return deepest;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/clock.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/measure/deepest_contact.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/plan/plan.hpp"
@@ -80,7 +81,7 @@ class EnergyWatch {
 
   private:
     double lowest_ = std::numeric_limits<double>::infinity();
-    double first_ = std::numeric_limits<double>::quiet_NaN();
+    double first_ = kUnknown;
     double work_done_ = 0;
     double largest_through_ = 0;
 };

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 
@@ -89,11 +89,9 @@ class MeasureTable {
     std::vector<double> values_;  // row after row
 };
 
-// The value of a column at a moment when there is nothing to measure.
-inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-
+// For columns at a moment when there is nothing to measure.
 inline void add_no_values(std::vector<double>& row, std::size_t columns) {
-    row.insert(row.end(), columns, kNoValue);
+    row.insert(row.end(), columns, kUnknown);
 }
 
 // Fields are values of an observer place by place, on grids that stay the same for the whole run.

@@ -18,7 +18,6 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <vector>
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/measure/observer_list.hpp"
 
 namespace grainreel {
@@ -17,8 +18,7 @@ bool gathers(const Observer& observer) {
 bool is_wanted(const ObserverEntry& entry, const Scene& scene) {
     if (entry.wanted != nullptr) return entry.wanted(scene);
     const std::vector<std::string> wanted = scene.instruments();
-    return entry.instrument == nullptr ||
-           std::find(wanted.begin(), wanted.end(), entry.instrument) != wanted.end();
+    return entry.instrument == nullptr || contains(wanted, entry.instrument);
 }
 
 }  // namespace
@@ -75,10 +75,9 @@ double Observers::look(const ObservedState& moment, const ShowContacts& show_con
     std::vector<double> row;
     std::size_t index = 0;
     const auto gives_it = [&](const Entry& entry) {
-        const auto found = std::find(entry.columns.begin(), entry.columns.end(), column);
-        if (found == entry.columns.end()) return false;
-        index = static_cast<std::size_t>(found - entry.columns.begin());
-        return true;
+        const std::optional<std::size_t> place = place_in(entry.columns, column);
+        index = place.value_or(0);
+        return place.has_value();
     };
     visit(moment, show_contacts, gives_it, [&](Entry& entry) { entry.observer->look(moment, row); });
     GRAINREEL_CHECK(index < row.size());

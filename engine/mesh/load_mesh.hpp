@@ -3,10 +3,8 @@
 // suffix. These files name no units: `scale` brings them to m.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "engine/base/triangle_mesh.hpp"
 #include "engine/mesh/mesh_facts.hpp"

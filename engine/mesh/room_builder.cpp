@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/base/lists.hpp"
 #include "engine/mesh/level_section.hpp"
 #include "engine/mesh/mesh_edges.hpp"
 #include "engine/mesh/room.hpp"
@@ -241,9 +242,7 @@ class EnclosedRoom::Builder {
             room_.top_ = end_between(highest[1].first.z, highest->second.z);
     }
 
-    bool is_border(double z) const {
-        return std::find(borders_.begin(), borders_.end(), z) != borders_.end();
-    }
+    bool is_border(double z) const { return contains(borders_, z); }
 
     double end_between(double without, double with) const {
         for (int i = 0; i < bisections && std::abs(with - without) > alike_; ++i) {
@@ -264,7 +263,7 @@ class EnclosedRoom::Builder {
 EnclosedRoom::EnclosedRoom(std::shared_ptr<const Surface> surface)
     : surface_(std::move(surface)),
       closed_(in_closed_part(surface_->mesh())),
-      any_closed_(std::find(closed_.begin(), closed_.end(), 1) != closed_.end()) {
+      any_closed_(contains(closed_, 1)) {
     Builder(*this).build();
 }
 

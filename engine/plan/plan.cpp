@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/plan/contact_kinds.hpp"
 #include "engine/plan/plan_bed.hpp"
 #include "engine/plan/plan_parts.hpp"
@@ -117,9 +117,9 @@ std::int64_t count_steps(const Scene& scene, double seconds, double step, const 
     const double steps = seconds / step;
     if (steps > most_steps)
         throw UserError(
-            fmt::format("{}: {:.4g} s in steps of {:.4g} s make {:.3g} steps, and the most are {:.2g}; "
-                        "shorten it or lengthen run.step",
-                        scene.where(key), seconds, step, steps, most_steps));
+            "{}: {:.4g} s in steps of {:.4g} s make {:.3g} steps, and the most are {:.2g}; "
+            "shorten it or lengthen run.step",
+            scene.where(key), seconds, step, steps, most_steps);
     return std::llround(steps);
 }
 
@@ -140,10 +140,10 @@ Clock plan_clock(const Scene& scene, double step) {
 void check_records(const Scene& scene, const Plan& plan, double every, const char* what, const char* key) {
     const double records = static_cast<double>(plan.steps) / every;
     if (records <= most_records) return;
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: the run's {} steps make {:.4g} {}, and the most are {:.2g}; lengthen '{}' or shorten "
         "'run.duration'",
-        scene.where(key), plan.steps, records, what, most_records, key));
+        scene.where(key), plan.steps, records, what, most_records, key);
 }
 
 // Where the scene gives no interval, the time between records is a number of periods of the drive's present
@@ -191,20 +191,19 @@ void plan_outlet(const Scene& scene, Plan& plan) {
     plan.traffic = !scene.container.tray;
     if (*plan.opens >= plan.steps)
         throw UserError(
-            fmt::format("{}: the outlet opens at {:.4g} s, but the run ends at {:.4g} s; open it "
-                        "earlier or lengthen run.duration",
-                        scene.where("container.outlet.opens"), opens, scene.run.duration));
+            "{}: the outlet opens at {:.4g} s, but the run ends at {:.4g} s; open it "
+            "earlier or lengthen run.duration",
+            scene.where("container.outlet.opens"), opens, scene.run.duration);
 }
 
 // This is checked here and not by the reader of scenes, because a finished run can be drawn again after its
 // start file is gone.
 void check_start_file(const Scene& scene) {
-    std::error_code ignored;
     const std::string& file = scene.start.file;
-    if (scene.start.method != Start::Method::file || std::filesystem::is_regular_file(file, ignored)) return;
-    const bool exists = std::filesystem::exists(file, ignored);
-    throw UserError(fmt::format("{}: 'file' names {}, which {}; give a checkpoint or final.csv",
-                                scene.where("start.file"), file, exists ? "is no file" : "does not exist"));
+    if (scene.start.method != Start::Method::file || is_plain(file)) return;
+    const bool exists = is_there(file);
+    throw UserError("{}: 'file' names {}, which {}; give a checkpoint or final.csv",
+                    scene.where("start.file"), file, exists ? "is no file" : "does not exist");
 }
 
 // The step (s) that the plan would choose if only the drive moved walls. Compared with it, one sees whether a
@@ -260,9 +259,8 @@ Plan make_plan(const Scene& scene, const StartFacts& file) {
     plan.clock = plan_clock(scene, step.step);
     plan.steps = count_steps(scene, scene.run.duration, plan.clock.step, "run.duration");
     if (plan.steps == 0)
-        throw UserError(
-            fmt::format("{}: 'duration' of {:.4g} s is shorter than half a step of {:.4g} s; lengthen it",
-                        scene.where("run.duration"), scene.run.duration, plan.clock.step));
+        throw UserError("{}: 'duration' of {:.4g} s is shorter than half a step of {:.4g} s; lengthen it",
+                        scene.where("run.duration"), scene.run.duration, plan.clock.step);
     plan_outlet(scene, plan);
     plan.traffic = plan.traffic || !scene.feeds.empty() || !scene.exits.empty();
     if (scene.start.packs())

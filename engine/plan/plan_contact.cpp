@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -88,10 +87,10 @@ Stiffness choose_stiffness(const Scene& scene, const BedPlan& bed, const PairCon
         hertz ? demand_modulus(scene, bed, t, demands) : demand_stiffness(scene, bed, contact, t, demands);
     if (demands.chosen().value > 0) return demands.chosen();
     throw UserError(
-        fmt::format("{}: '{}' is missing between {}, and with neither drive nor gravity nothing says "
-                    "how large it must be; write for example {}",
-                    scene.where("contact"), hertz ? "modulus" : "stiffness", place_of_pair(a, b),
-                    hertz ? "modulus = \"1 GPa\"" : "stiffness = \"2e4 N/m\""));
+        "{}: '{}' is missing between {}, and with neither drive nor gravity nothing says "
+        "how large it must be; write for example {}",
+        scene.where("contact"), hertz ? "modulus" : "stiffness", place_of_pair(a, b),
+        hertz ? "modulus = \"1 GPa\"" : "stiffness = \"2e4 N/m\"");
 }
 
 // Finds the damping of the spring-dashpot from the restitution, or the restitution from the damping;
@@ -114,10 +113,10 @@ void plan_damping(const Scene& scene, PairPlan& pair, const PairContact& contact
         for (const PairSizes& t : extremes(a, b))
             critical = std::min(critical, 2 * std::sqrt(pair.loading_stiffness / t.effective_mass));
         if (pair.normal_damping >= critical && contact.attraction)
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}: 'normal_damping' of {:.6g} 1/s between {} is not below the critical {:.6g} "
                 "1/s, so that nothing rebounds; reduce it or raise the stiffness",
-                scene.where("contact.normal_damping"), pair.normal_damping, place_of_pair(a, b), critical));
+                scene.where("contact.normal_damping"), pair.normal_damping, place_of_pair(a, b), critical);
         pair.restitution = linear_restitution(pair.normal_damping / (2 * natural), contact.attraction);
     }
     if (contact.tangential != TangentialLaw::linear_spring) return;

@@ -115,13 +115,13 @@ void check_rim(const Scene& scene, const std::string& key, const std::string& na
                double step) {
     const double smallest = smallest_that_comes(scene), moved = speed * step;
     if (!(moved > most_of_a_grain * smallest)) return;
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: {} moves at up to {:.4g} m/s, by {:.3g} m in a step of {:.4g} s, which is {:.2g} of the "
         "smallest "
         "grain, more than {}, so that grains may pass through it; make it at least {:.2g} times slower, or "
         "give a 'run.step' of at most {:.3g} s",
         scene.where(key), name, speed, moved, step, moved / smallest, most_of_a_grain,
-        moved / (most_of_a_grain * smallest), most_of_a_grain * smallest / speed));
+        moved / (most_of_a_grain * smallest), most_of_a_grain * smallest / speed);
 }
 
 std::string motion_key(const SceneMesh& mesh) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/text.hpp"
 #include "engine/plan/plan_parts.hpp"
 #include "engine/plan/warnings.hpp"
 #include "engine/scene/bed.hpp"

@@ -1,6 +1,5 @@
 #include "engine/plan/times.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -101,9 +100,9 @@ void check_field_size(const Scene& scene) {
     const double bytes = cells * 8 * (10 * phases + 10 + static_cast<double>(scene.species.size()));
     if (bytes <= most_bytes) return;
     throw UserError(
-        fmt::format("{}: fields on {:.3g} cells at {:g} phases take {:.3g} GB of memory, and the most are "
-                    "{:g} GB; raise output.fields.cell or lower output.fields.samples",
-                    scene.where("output.fields.cell"), cells, phases, bytes / 1e9, most_bytes / 1e9));
+        "{}: fields on {:.3g} cells at {:g} phases take {:.3g} GB of memory, and the most are "
+        "{:g} GB; raise output.fields.cell or lower output.fields.samples",
+        scene.where("output.fields.cell"), cells, phases, bytes / 1e9, most_bytes / 1e9);
 }
 
 namespace {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/scene/scene.hpp"
@@ -50,8 +50,7 @@ AskedMoment kept_frame(const StoredRun& run, std::int64_t asked, const std::stri
     const auto count = static_cast<std::int64_t>(moments.size());
     const std::int64_t frame = from_start(asked, count);
     if (frame < 0 || frame >= count)
-        throw UserError(
-            fmt::format("--frame: {} has the frames 0 to {}, but {} is asked for", name, count - 1, asked));
+        throw UserError("--frame: {} has the frames 0 to {}, but {} is asked for", name, count - 1, asked);
     const auto index = static_cast<std::size_t>(frame);
     return {moments[index].step, moments[index].time, index, index, frame + 1 == count};
 }
@@ -70,12 +69,11 @@ AskedMoment last_moment(const StoredRun& run) {
 // held for a caption counts once for each frame in which the film shows it.
 std::int64_t step_of_frame(const StoredRun& run, const MomentRequest& request) {
     const std::filesystem::path file = run.path() / kFilmMoments;
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
+    if (!is_there(file))
         throw UserError(
-            fmt::format("--frame: {} has no {}, so that the moments of its film are not known; give --at "
-                        "TIME, or run the scene again with its film and output.film_moments = true",
-                        run.path().string(), kFilmMoments));
+            "--frame: {} has no {}, so that the moments of its film are not known; give --at "
+            "TIME, or run the scene again with its film and output.film_moments = true",
+            run.path().string(), kFilmMoments);
     const StateArchive* const pictures = run.kept().film();
     if (pictures == nullptr) throw UserError(run.kept().faults_of_film().front().what);
     const std::vector<std::string> damage = pictures->damage();
@@ -91,8 +89,8 @@ std::int64_t step_of_frame(const StoredRun& run, const MomentRequest& request) {
     for (const auto& [end, step] : ends)
         if (frame >= 0 && frame < end) return step;
     if (!damage.empty()) throw UserError(damage.front());
-    throw UserError(fmt::format("--frame: the film has the frames 0 to {}, but {} is asked for", shown - 1,
-                                *request.frame));
+    throw UserError("--frame: the film has the frames 0 to {}, but {} is asked for", shown - 1,
+                    *request.frame);
 }
 
 // The snapshot of a restored run, without accelerations.
@@ -122,14 +120,14 @@ void check_can_bring_back(const StoredRun& run, const AskedMoment& moment) {
     const bool none = run.checkpoints().empty();
     if (none && run.kind() == StoredRun::Kind::elsewhere)
         throw UserError(
-            fmt::format("{}: another engine computed the run, so that no moment can be brought back; "
-                        "ask for a kept moment with --no-replay",
-                        run.path().string()));
-    throw UserError(fmt::format(
+            "{}: another engine computed the run, so that no moment can be brought back; "
+            "ask for a kept moment with --no-replay",
+            run.path().string());
+    throw UserError(
         "{}: has no checkpoint{}, so that {} brought back; ask for a kept moment with --no-replay, or "
         "run the scene again with output.checkpoints",
         run.path().string(), none ? "s" : fmt::format(" of {:.6g} s or before", moment.time),
-        none ? "no moment can be" : "this moment cannot be"));
+        none ? "no moment can be" : "this moment cannot be");
 }
 
 }  // namespace
@@ -184,8 +182,7 @@ Snapshot kept_snapshot(const StoredRun& run, std::size_t index, bool with_ways) 
     snapshot.spins = supply.spins;
     snapshot.velocities = supply.velocities;
     if (!supply.velocities)
-        std::fill(snapshot.frame.velocity.begin(), snapshot.frame.velocity.end(),
-                  Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+        std::fill(snapshot.frame.velocity.begin(), snapshot.frame.velocity.end(), Vec3::Constant(kUnknown));
     return snapshot;
 }
 
@@ -210,9 +207,9 @@ Snapshot brought_back_with_ways(StoredRun& run, const AskedMoment& moment, const
                              {},
                              0};
     if (before.step < run.moments().front().step || !run.brings_back(before.step))
-        throw UserError(fmt::format(
+        throw UserError(
             "ways over a period need the moment {} before {:.6g} s, and the run does not reach back so far",
-            periods == 1 ? "one period" : fmt::format("{} periods", periods), moment.time));
+            periods == 1 ? "one period" : fmt::format("{} periods", periods), moment.time);
     const State then = run.brought_back(before.step, watcher).frame();
     Snapshot snapshot = brought_back_snapshot(run, moment, watcher);
     snapshot.displacement =
@@ -229,9 +226,9 @@ void see_periods(StoredRun& run, const AskedMoment& moment, double periods, bool
     const std::int64_t from = clock.step_at(end - periods);
     if (clock.time(from) < run.from() - 1e-9)
         throw UserError(
-            fmt::format("--average: {} periods before {:.6g} s lie before the run's first moment, {:.6g} s; "
-                        "ask for fewer",
-                        periods, moment.time, run.from()));
+            "--average: {} periods before {:.6g} s lie before the run's first moment, {:.6g} s; "
+            "ask for fewer",
+            periods, moment.time, run.from());
     if (!replay) {
         for (std::size_t k = 0; k < run.moments().size(); ++k)
             if (const std::int64_t step = run.moments()[k].step; step > from && step <= moment.step)
@@ -265,11 +262,11 @@ void see_every(StoredRun& run, double interval, const ReplayWatcher& watcher,
     const double first = std::ceil(run.from() / interval - rounding),
                  count = std::floor(run.to() / interval + rounding) - first + 1;
     if (interval < clock.step)
-        throw UserError(fmt::format(
-            "--every: is shorter than a step of the run, {:.4g} s; take a longer time", clock.step));
+        throw UserError("--every: is shorter than a step of the run, {:.4g} s; take a longer time",
+                        clock.step);
     if (count > most)
-        throw UserError(fmt::format(
-            "--every: makes {:.3g} moments, and the most are {:.0g}; take a longer time", count, most));
+        throw UserError("--every: makes {:.3g} moments, and the most are {:.0g}; take a longer time", count,
+                        most);
     if (count < 1) throw UserError("--every: no multiple of it lies in the run; take a shorter time");
     const auto step_of = [&](double k) {
         const auto step = static_cast<std::int64_t>(std::llround((first + k) * interval / clock.step));

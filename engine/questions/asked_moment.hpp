@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <string>
 
 #include "engine/questions/snapshot.hpp"
 #include "engine/run/stored/stored_run.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "engine/base/error.hpp"
@@ -38,10 +37,10 @@ Rows rows_in(const MeasureTable& table, const std::string& column, const TimeWin
         rows.values.push_back(values[i]);
     }
     if (rows.times.empty())
-        throw UserError(fmt::format(
+        throw UserError(
             "no row of measures.csv lies from {:.6g} s to {:.6g} s; the run has {:.6g} s to "
             "{:.6g} s",
-            window.from, window.to, times.empty() ? 0 : times.front(), times.empty() ? 0 : times.back()));
+            window.from, window.to, times.empty() ? 0 : times.front(), times.empty() ? 0 : times.back());
     return rows;
 }
 
@@ -157,7 +156,7 @@ Answer by_period(const StoredRun& run, const ColumnsRequest& request) {
 TimeWindow time_window(const std::string& text) {
     const std::size_t dots = text.find("..");
     if (dots == std::string::npos)
-        throw UserError(fmt::format("\"{}\" must be two times with .. between them, as in 0.2s..0.8s", text));
+        throw UserError("\"{}\" must be two times with .. between them, as in 0.2s..0.8s", text);
     TimeWindow window;
     const auto time_in = [](const std::string& one) {
         const std::optional<double> seconds = number_in(one);
@@ -167,7 +166,7 @@ TimeWindow time_window(const std::string& text) {
     if (!from.empty()) window.from = time_in(from);
     if (!to.empty()) window.to = time_in(to);
     if (!(window.from < window.to))
-        throw UserError(fmt::format("\"{}\" ends before it begins; exchange the two times", text));
+        throw UserError("\"{}\" ends before it begins; exchange the two times", text);
     return window;
 }
 

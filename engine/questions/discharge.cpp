@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"

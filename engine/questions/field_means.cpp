@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/files/fields_file.hpp"
 #include "engine/run/stored/stored_run.hpp"
 
 namespace grainreel {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // Whether a field is a mean over mass: what grains have, in place of what a volume has.
 bool is_by_mass(const std::string& name) {
@@ -21,9 +20,8 @@ bool is_by_mass(const std::string& name) {
 }
 
 std::size_t place_of(const std::vector<std::string>& names, const std::string& name) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) throw UserError(fmt::format("fields.nc has no '{}'", name));
-    return static_cast<std::size_t>(found - names.begin());
+    if (const auto place = place_in(names, name)) return *place;
+    throw UserError("fields.nc has no '{}'", name);
 }
 
 // Sums of values times weights, and the means of them.
@@ -36,7 +34,7 @@ struct Sums {
         sum[cell] += value * by, weight[cell] += by;
     }
     std::vector<double> means() const {
-        std::vector<double> all(sum.size(), none);
+        std::vector<double> all(sum.size(), kUnknown);
         for (std::size_t k = 0; k < all.size(); ++k)
             if (weight[k] > 0) all[k] = sum[k] / weight[k];
         return all;
@@ -78,7 +76,7 @@ MeanFields mean_of_records(const FieldsReader& reader, const TimeWindow& window)
 
 // The places of a cell; NaN along an axis without cells.
 std::array<double, 3> middle_of(const MeanFields& fields, std::size_t cell) {
-    std::array<double, 3> middle{none, none, none};
+    std::array<double, 3> middle{kUnknown, kUnknown, kUnknown};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::vector<double>& all = fields.middles[axis];
         if (all.empty()) continue;
@@ -182,7 +180,7 @@ RingFields rings_of(const MeanFields& fields) {
         rings.z.push_back(z[ring / across]);
         for (std::size_t i = 0; i < kept.size(); ++i) {
             const Sums& all = sums[kept[i]];
-            rings.values[i].push_back(all.weight[ring] > 0 ? all.sum[ring] / all.weight[ring] : none);
+            rings.values[i].push_back(all.weight[ring] > 0 ? all.sum[ring] / all.weight[ring] : kUnknown);
         }
     }
     return rings;
@@ -191,7 +189,7 @@ RingFields rings_of(const MeanFields& fields) {
 double turnover_time(const MeanFields& fields) {
     const std::vector<double>&z = fields.middles[2], &density = fields.of("density"),
           &vz = fields.of("velocity_z");
-    if (z.size() < 2) return none;
+    if (z.size() < 2) return kUnknown;
     const double height = z[1] - z[0];
     std::vector<double> rising(z.size());  // kg/s
     double mass = 0;
@@ -202,22 +200,22 @@ double turnover_time(const MeanFields& fields) {
         if (vz[k] > 0) rising[k / (fields.volume.size() / z.size())] += here * vz[k] / height;
     }
     const double most = *std::max_element(rising.begin(), rising.end());
-    return most > 0 ? mass / most : none;
+    return most > 0 ? mass / most : kUnknown;
 }
 
 Answer fields_answer(const StoredRun& run, const std::string& grid, const TimeWindow& window) {
     std::error_code none_there;
     if (!std::filesystem::exists(run.path() / "fields.nc", none_there))
-        throw UserError(fmt::format("{}: the run kept no fields; they need [output.fields] in its scene",
-                                    (run.path() / "fields.nc").string()));
+        throw UserError("{}: the run kept no fields; they need [output.fields] in its scene",
+                        (run.path() / "fields.nc").string());
     const FieldsReader reader(run.path() / "fields.nc");
     const MeanFields mean = mean_of_records(reader, window);
     if (mean.records == 0)
-        throw UserError(fmt::format(
+        throw UserError(
             "no record of fields.nc lies within {:.6g} s to {}; there are {}, {:.6g} s to {:.6g} s",
             window.from, std::isfinite(window.to) ? fmt::format("{:.6g} s", window.to) : "the run's end",
             reader.records(), reader.records() > 0 ? reader.span(0)[0] : 0,
-            reader.records() > 0 ? reader.span(reader.records() - 1)[1] : 0));
+            reader.records() > 0 ? reader.span(reader.records() - 1)[1] : 0);
     AnswerTable span{"turnover",
                      "Mean flow",
                      {{"from", Dimension::time, ""},

@@ -4,7 +4,7 @@
 #include "engine/base/error.hpp"
 #include "engine/measure/segregation/unlike_neighbours.hpp"
 #include "engine/questions/contact_questions.hpp"
-#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -136,7 +136,7 @@ AnswerTable neighbours_table(const Snapshot& s, std::size_t grain) {
     std::vector<std::int64_t> count(s.scene.species.size(), 0);
     for (std::size_t i = 0; i < s.frame.size(); ++i)
         if (i != grain && are_neighbours(own, {s.frame.position[i], s.frame.radius[i]}, gap, period))
-            ++count[static_cast<std::size_t>(s.frame.species[i])];
+            ++count[s.frame.species[i]];
     for (std::size_t k = 0; k < count.size(); ++k) table.rows.push_back({s.scene.species[k].name, count[k]});
     return table;
 }

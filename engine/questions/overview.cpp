@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -20,7 +19,7 @@
 #include "engine/mesh/room.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/questions/contact_questions.hpp"
-#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/statistics.hpp"
 #include "engine/state/container_faces.hpp"
@@ -66,8 +65,7 @@ AnswerTable species_table(const Snapshot& s) {
     const GrainVocabulary words(s);
     const auto column = [&](const char* name) { return values_of(s, words.find(name)->column); };
     const auto if_known = [&](bool known, const char* name) {
-        return known ? column(name)
-                     : std::vector<double>(s.frame.size(), std::numeric_limits<double>::quiet_NaN());
+        return known ? column(name) : std::vector<double>(s.frame.size(), kUnknown);
     };
     const bool weighed = masses_known(s);
     const std::vector<double> height = column("height"), rise = column("rise"),
@@ -83,8 +81,7 @@ AnswerTable species_table(const Snapshot& s) {
         // The sum of some is not that of all, so that it is unknown if one of them is.
         const auto sum = [](const std::vector<double>& own) {
             const Statistics of = statistics_of(own);
-            return of.count == own.size() ? of.mean * double(of.count)
-                                          : std::numeric_limits<double>::quiet_NaN();
+            return of.count == own.size() ? of.mean * double(of.count) : kUnknown;
         };
         const Statistics heights = statistics_of(of_species(height));
         table.rows.push_back({s.scene.species[k].name, static_cast<std::int64_t>(heights.count),

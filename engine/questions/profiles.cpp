@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
-#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/statistics.hpp"
 #include "engine/state/container_faces.hpp"
@@ -54,8 +54,7 @@ Bins bins_along(const Snapshot& s, const std::vector<double>& at, double low) {
             bin.speed += s.frame.velocity[i].norm();
             bin.upward += s.frame.velocity[i].z();
         }
-        bin.volume[static_cast<std::size_t>(s.frame.species[i])] +=
-            4.0 / 3.0 * std::numbers::pi * math::cube(s.frame.radius[i]);
+        bin.volume[s.frame.species[i]] += 4.0 / 3.0 * std::numbers::pi * math::cube(s.frame.radius[i]);
     }
     return all;
 }
@@ -101,7 +100,7 @@ double sphere_below(double radius, double height) {
 // for each slice the volume of its grains divided by the volume inside the container; NaN where that is 0
 // (below the floor, above the rim, in empty space). Grains that are glued to walls do not count.
 std::vector<double> solid_fractions(const Snapshot& s, double low, double height, std::size_t count) {
-    std::vector<double> fractions(count, std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> fractions(count, kUnknown);
     const Container& container = s.scene.container;
     if (container.shape == Container::Shape::none) return fractions;
     // The edge of a slice, limited to the container.
@@ -147,8 +146,8 @@ void add_solid_fraction(const Snapshot& s, const Bins& all, bool above_floor, An
 
 Answer profile_answer(const Snapshot& s, const std::string& along) {
     const std::vector<std::string> directions = {"height", "x", "y", "z", "r"};
-    if (std::find(directions.begin(), directions.end(), along) == directions.end())
-        throw UserError(fmt::format("'{}' is no direction; there are height, x, y, z and r", along));
+    if (!contains(directions, along))
+        throw UserError("'{}' is no direction; there are height, x, y, z and r", along);
     if (s.frame.size() == 0) throw UserError("there are no grains at this moment");
     const std::vector<double> at = values_of(s, column_called(s, along));
     const bool across = along == "x" || along == "y";

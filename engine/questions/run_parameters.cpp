@@ -1,8 +1,7 @@
 #include "engine/questions/run_parameters.hpp"
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/run/stored/stored_run.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -12,9 +11,7 @@ namespace grainreel {
 
 Answer parameters_answer(const StoredRun& run) {
     const std::filesystem::path folder = run.path(), scene = folder / "scene.toml";
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(scene, ignored))
-        throw UserError(fmt::format("{}: has no scene.toml; ask a run's folder", folder.string()));
+    if (!is_plain(scene)) throw UserError("{}: has no scene.toml; ask a run's folder", folder.string());
     const RunJson record = read_run_json(folder / "run.json").record;
     AnswerTable table{
         "parameters", "Parameters", {{"key", Dimension::number, ""}, {"value", Dimension::number, ""}}, {}};

@@ -1,8 +1,6 @@
 #include "engine/questions/snapshot.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <limits>
 
 #include "engine/base/numbers.hpp"
 #include "engine/state/container_faces.hpp"
@@ -92,7 +90,7 @@ std::string name_of_body(const Snapshot& snapshot, std::int32_t id) {
 
 std::vector<Vec3> displacement_since(const State& before, const State& now, int periods, double depth) {
     const std::vector<std::size_t> rows = rows_in(before, now);
-    std::vector<Vec3> displacement(now.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    std::vector<Vec3> displacement(now.size(), Vec3::Constant(kUnknown));
     for (std::size_t i = 0; i < now.size(); ++i) {
         if (rows[i] == kNoRow) continue;
         Vec3 way = now.position[i] - before.position[rows[i]];

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
-#include "engine/questions/grain_columns.hpp"
+#include "engine/base/numbers.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 
 namespace grainreel {
@@ -39,15 +39,14 @@ double student_t(double probability, int freedom) {
 }
 
 MeanInterval mean_interval(const std::vector<double>& values, double probability) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    MeanInterval result{0, 0, nan};
+    MeanInterval result{0, 0, kUnknown};
     for (const double value : values) {
         if (!std::isfinite(value)) continue;
         ++result.count;
         result.mean += value;
     }
     const auto count = static_cast<double>(result.count);
-    result.mean = result.count > 0 ? result.mean / count : nan;
+    result.mean = result.count > 0 ? result.mean / count : kUnknown;
     if (result.count < 2) return result;
     double squares = 0;
     for (const double value : values)
@@ -60,7 +59,7 @@ MeanInterval mean_interval(const std::vector<double>& values, double probability
 void Histogram::add(const Snapshot& s) {
     if (s.frame.size() == 0 && moments_ == 0) throw UserError("there are no grains at this moment");
     const int number = column_called(s, name_);
-    const GrainColumn& column = grain_columns()[static_cast<std::size_t>(number)];
+    const GrainColumn& column = grain_columns()[number];
     if (column.is_species) throw UserError("species have no order; ask for a quantity, as in \"speed\"");
     dimension_ = column.dimension;
     if (species_.empty())
@@ -71,14 +70,14 @@ void Histogram::add(const Snapshot& s) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!std::isfinite(values[i])) continue;
         if (++count_ > kMostValues)
-            throw UserError(fmt::format("{} moments of {} grains are too many; ask for fewer periods",
-                                        moments_, s.frame.size()));
-        values_[static_cast<std::size_t>(s.frame.species[i])].push_back(values[i]);
+            throw UserError("{} moments of {} grains are too many; ask for fewer periods", moments_,
+                            s.frame.size());
+        values_[s.frame.species[i]].push_back(values[i]);
     }
 }
 
 Answer Histogram::answer(std::size_t bins) const {
-    if (count_ == 0) throw UserError(fmt::format("no grain has a '{}' at this moment", name_));
+    if (count_ == 0) throw UserError("no grain has a '{}' at this moment", name_);
     double least = 0, most = 0;
     bool any = false;
     for (const std::vector<double>& all : values_)

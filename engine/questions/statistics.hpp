@@ -2,15 +2,12 @@
 // Values that are not finite are left out.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/base/numbers.hpp"
 #include "engine/questions/answer.hpp"
 #include "engine/questions/snapshot.hpp"
 
@@ -18,7 +15,7 @@ namespace grainreel {
 
 struct Statistics {
     std::size_t count = 0;
-    double least = std::numeric_limits<double>::quiet_NaN(), most = least, mean = least, deviation = least;
+    double least = kUnknown, most = least, mean = least, deviation = least;
     std::size_t where_least = 0, where_most = 0;  // places in the list
 };
 

@@ -327,17 +327,15 @@ std::shared_ptr<const MeasureTable> table_with(const StoredRun& run, const std::
             "--mean kinetic_energy tells energies over time, and the page of `report` draws kinetic_J",
             run.path().string()));
     if (table == nullptr)
-        throw UserError(
-            fmt::format("{}: has no measures.csv with rows; ask a run's folder", run.path().string()));
+        throw UserError("{}: has no measures.csv with rows; ask a run's folder", run.path().string());
     const std::vector<std::string>& columns = table->columns();
     if (!table->find(column)) {
         const auto meant = nearest_name(column, columns);
-        throw UserError(fmt::format("'{}' is no column of measures.csv; {}", column,
-                                    meant ? fmt::format("did you mean '{}'?", *meant)
-                                          : fmt::format("there are {}", fmt::join(columns, ", "))));
+        throw UserError("'{}' is no column of measures.csv; {}", column,
+                        meant ? fmt::format("did you mean '{}'?", *meant)
+                              : fmt::format("there are {}", fmt::join(columns, ", ")));
     }
-    if (!table->find("time_s"))
-        throw UserError(fmt::format("{}: has no column time_s", run.name_of("measures.csv")));
+    if (!table->find("time_s")) throw UserError("{}: has no column time_s", run.name_of("measures.csv"));
     return table;
 }
 

@@ -16,12 +16,11 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "engine/base/numbers.hpp"
 #include "engine/measure/measures.hpp"
 #include "engine/questions/answer.hpp"
 #include "engine/scene/scene.hpp"
@@ -41,7 +40,7 @@ constexpr double kLeastIndependent = 36;
 struct Steadiness {
     enum class Verdict { steady, drifts, too_short };
     Verdict verdict = Verdict::too_short;
-    double from = std::numeric_limits<double>::quiet_NaN();  // s, where the transient ends
+    double from = kUnknown;   // s, where the transient ends
     std::size_t batches = 0;  // number of all batches; each has the rows of a period, or kRowsWithoutDrive
     std::size_t dropped = 0;  // batches dropped at the front
     std::size_t tested = 0;   // number of means in the test of drift
@@ -49,7 +48,7 @@ struct Steadiness {
     double correlation = 0;   // lag-1 correlation of the means in the test of drift
     // Mean after the transient, and half the width of its 95 % interval (Student's t of the tested means,
     // wider by what is left of their correlation).
-    double mean = std::numeric_limits<double>::quiet_NaN(), half_width = mean;
+    double mean = kUnknown, half_width = mean;
     double slope = mean;  // Sen's slope, the value's unit per s
     // Kendall's tau, and the probability of this |tau| or a larger one if there is no trend.
     double tau = mean, p = mean;
@@ -72,7 +71,7 @@ double independent_values(const std::vector<double>& values);
 // The mean of all rows, or the slope of the line of least squares (per s), with half the width of its 95 %
 // interval. The half is NaN where the rows tell too little for one; then `why` says what is lacking.
 struct Estimate {
-    double value = std::numeric_limits<double>::quiet_NaN(), half_width = value;
+    double value = kUnknown, half_width = value;
     std::size_t rows = 0, batches = 0;
     double independent = 0;  // how many independent values the rows are worth; a slope has none
     std::string why;

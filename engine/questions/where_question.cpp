@@ -6,10 +6,11 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/files/damage.hpp"
-#include "engine/questions/expression.hpp"
-#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/expressions/expression.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/statistics.hpp"
 #include "engine/scene/text/units.hpp"
@@ -28,8 +29,8 @@ AnswerTable counts_table(const Snapshot& s, const std::vector<std::size_t>& foun
                       {},
                       true};
     std::vector<std::int64_t> own(s.scene.species.size(), 0), all(s.scene.species.size(), 0);
-    for (const std::size_t i : found) ++own[static_cast<std::size_t>(s.frame.species[i])];
-    for (const std::int32_t k : s.frame.species) ++all[static_cast<std::size_t>(k)];
+    for (const std::size_t i : found) ++own[s.frame.species[i]];
+    for (const std::int32_t k : s.frame.species) ++all[k];
     const auto add = [&](const std::string& name, std::int64_t some, std::int64_t of) {
         AnswerCell share;
         if (of > 0) share = static_cast<double>(some) / static_cast<double>(of);
@@ -56,7 +57,7 @@ AnswerTable series_table(const Snapshot& s, const std::vector<std::size_t>& foun
     for (std::size_t k = 0; k < columns.size(); ++k) {
         const int number = static_cast<int>(k);
         if (columns[k].is_species || columns[k].name == "id" || !s.has(columns[k].needs)) continue;
-        if (columns[k].costly && std::find(asked.begin(), asked.end(), number) == asked.end()) continue;
+        if (columns[k].costly && !contains(asked, number)) continue;
         const Statistics of = statistics_of(values_of(s, number, found));
         if (of.count == 0) continue;
         table.rows.push_back({columns[k].name, of.mean, of.deviation, of.least, of.most});
@@ -95,7 +96,7 @@ Plane plane_of(const std::string& text) {
         equal != text.npos && letter < equal && text.find_first_not_of(' ', letter + 1) == equal;
     const std::size_t axis = named ? std::string("xyz").find(text[letter]) : std::string::npos;
     if (axis == std::string::npos)
-        throw UserError(fmt::format("'{}' is no plane; write for example y=0 or \"z = 2 cm\"", text));
+        throw UserError("'{}' is no plane; write for example y=0 or \"z = 2 cm\"", text);
     const std::string value = text.substr(equal + 1);
     const bool bare_zero = value.find_first_not_of(" 0.") == std::string::npos && !value.empty();
     return {static_cast<int>(axis), bare_zero ? 0 : parse_quantity(value, Dimension::length, "y = 2 mm")};
@@ -174,7 +175,7 @@ namespace {
 std::vector<AnswerCell> moment_row(const Snapshot& s, const SeriesRequest& request) {
     const std::vector<std::size_t> found = grains_where(s, Expression(request.condition, GrainVocabulary(s)));
     std::vector<std::int64_t> own(s.scene.species.size(), 0);
-    for (const std::size_t i : found) ++own[static_cast<std::size_t>(s.frame.species[i])];
+    for (const std::size_t i : found) ++own[s.frame.species[i]];
     std::vector<AnswerCell> row{s.frame.time, s.frame.cycles};
     row.insert(row.end(), own.begin(), own.end());
     row.emplace_back(static_cast<std::int64_t>(found.size()));
@@ -203,8 +204,7 @@ AnswerTable empty_table(const StoredRun& run, const SeriesRequest& request) {
                                          : "over these grains"});
             return table;
         }
-    throw UserError(
-        fmt::format("--mean: '{}' is no quantity of a grain; --help lists them", request.mean_of));
+    throw UserError("--mean: '{}' is no quantity of a grain; --help lists them", request.mean_of);
 }
 
 // The kept moments that are nearest to the multiples of a time, each once.
@@ -239,7 +239,7 @@ Answer series_of(StoredRun& run, const SeriesRequest& request, const ReplayWatch
         return answer;
     }
     const std::vector<Needs> needs = needs_of(request.condition + " " + request.mean_of);
-    const bool with_ways = std::find(needs.begin(), needs.end(), Needs::period) != needs.end();
+    const bool with_ways = contains(needs, Needs::period);
     std::size_t damaged = 0;
     for (const std::size_t k : kept_ones(run, request.every)) {
         try {

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <string>
 #include <string_view>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/numbers.hpp"
@@ -48,14 +48,14 @@ void check_start(const MotionPath& path, const PathRows& rows, const std::filesy
     const Vec3 place = start.place - path.pivot() + start.rotation * path.pivot();
     const bool turned = rotation_vector(start.rotation).norm() > same;
     if (place.norm() <= same * (high - low).norm() && !turned) return;
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: at 0 s the path is at ({:.6g}, {:.6g}, {:.6g}) m{}, but places count from where the mesh rests, "
         "and it rests until then; {}",
         file.string(), place.x(), place.y(), place.z(), turned ? ", turned" : "",
         turned
             ? "let the path begin at 0, 0, 0 with the quaternion 1, 0, 0, 0, and place the mesh by position "
               "and rotation"
-            : "subtract that from all rows, and add it to the mesh's position"));
+            : "subtract that from all rows, and add it to the mesh's position");
 }
 
 }  // namespace
@@ -145,7 +145,7 @@ class PathReader {
         width_ = cells.size();
         for (std::size_t c = 0; c < cells.size(); ++c) {
             const auto found = std::find_if(column_names.begin(), column_names.end(), [&](const auto& names) {
-                return std::find(names.begin(), names.end(), cells[c].text) != names.end();
+                return contains(names, cells[c].text);
             });
             if (found == column_names.end())
                 table_.fail(
@@ -278,11 +278,11 @@ class PathReader {
 
 PathRows read_path_rows(const std::filesystem::path& file) {
     if (const std::string other = other_than_file(file, true); !other.empty())
-        throw UserError(fmt::format("{}: is {}, not a path's file (.csv)", file.string(), other));
+        throw UserError("{}: is {}, not a path's file (.csv)", file.string(), other);
     std::ifstream text = read_plain(file);
     if (!text)
-        throw UserError(fmt::format(
-            "{}: there is no such file, or it cannot be read; give a path's file (.csv)", file.string()));
+        throw UserError("{}: there is no such file, or it cannot be read; give a path's file (.csv)",
+                        file.string());
     return std::move(PathReader(text, file).rows);
 }
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/rotation.hpp"
 #include "engine/mesh/room.hpp"
@@ -150,7 +150,7 @@ std::string Scene::where(const std::string& key) const {
 std::vector<std::string> Scene::instruments() const {
     std::vector<std::string> all = output.instruments;
     for (const std::string& wished : wishes.instruments)
-        if (std::find(all.begin(), all.end(), wished) == all.end()) all.push_back(wished);
+        if (!contains(all, wished)) all.push_back(wished);
     return all;
 }
 

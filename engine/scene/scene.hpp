@@ -2,7 +2,6 @@
 // the hopper's depth, y across its width, z up. The origin is the middle of the floor.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>

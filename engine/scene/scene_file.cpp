@@ -10,7 +10,9 @@
 #include <filesystem>
 
 #include "engine/base/error.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/lists.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
 #include "engine/scene/chapters/drive_keys.hpp"
@@ -24,7 +26,7 @@ namespace {
 constexpr std::size_t most_of_a_path = 400;  // characters of a path in a message
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
-    throw UserError(fmt::format("{}: {}", excerpt(file.string(), most_of_a_path), what));
+    throw UserError("{}: {}", excerpt(file.string(), most_of_a_path), what);
 }
 
 std::string advice_for_missing(const std::filesystem::path& file) {
@@ -99,10 +101,10 @@ namespace {
 // Checks the file's name, which becomes the film's title and the folder's name when the scene has no other.
 void check_name(const std::filesystem::path& file) {
     const std::string wrong = complaint_of_utf8(file.filename().string());
-    if (!wrong.empty()) throw UserError(fmt::format("{}; rename the file", wrong));
+    if (!wrong.empty()) throw UserError("{}; rename the file", wrong);
     if (const auto control = first_control_character(file.filename().string()))
-        throw UserError(fmt::format("{}: the file's name holds the control character U+{:04X}; rename it",
-                                    file.string(), *control));
+        throw UserError("{}: the file's name holds the control character U+{:04X}; rename it", file.string(),
+                        *control);
 }
 
 // Refuses a study, which names a scene and is no scene itself.
@@ -117,7 +119,7 @@ void check_no_study(const Document& document, const std::filesystem::path& file)
 void check_instruments(const Document& document, const Scene& scene) {
     const std::vector<std::string>& known = scene.measurable.instruments;
     for (const std::string& name : scene.output.instruments)
-        if (std::find(known.begin(), known.end(), name) == known.end())
+        if (!contains(known, name))
             document.fail("output.instruments",
                           fmt::format("names \"{}\", which is no instrument; there is {}", excerpt(name),
                                       fmt::join(known, ", ")));
@@ -139,8 +141,7 @@ Scene read_scene_text(std::string_view text, const std::filesystem::path& file, 
 }
 
 NamedText text_of_scene(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!file.has_parent_path() && !std::filesystem::exists(file, ignored))
+    if (!file.has_parent_path() && !is_there(file))
         if (const ShippedScene* shipped = shipped_scene_like(file.string()))
             return {std::string(shipped->text), shipped->name + ".toml"};
     return {load_scene_file(file, Pipes::taken), file};

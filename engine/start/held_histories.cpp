@@ -7,9 +7,9 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "engine/base/lists.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/start/restart.hpp"
-#include "engine/start/start_file.hpp"
 #include "engine/step/lists/contact_rules.hpp"
 
 namespace grainreel {
@@ -134,10 +134,9 @@ class HeldHistories {
             return act_alike(plan_.between(one, other), origin_.between(one, other));
         }
         if (group.of_mesh) {
-            const auto there =
-                static_cast<std::size_t>(std::find(mesh_.begin(), mesh_.end(), second) - mesh_.begin());
+            const std::size_t before = place_in(mesh_, second).value();
             return act_alike(plan_.at_mesh(static_cast<std::size_t>(second), one),
-                             origin_.at_mesh(there, one));
+                             origin_.at_mesh(before, one));
         }
         if (!group.of_glued) return act_alike(plan_.wall[one], origin_.wall[one]);
         return !origin_.glued.empty() && act_alike(plan_.glued[one], origin_.glued[one]);

@@ -117,7 +117,7 @@ void check_meshes_near(const Scene& scene, const Plan& plan) {
         if (is_ever_near(scene, plan, body, mesh, reach)) continue;
         const MeshFacts& facts = mesh.surface->facts();
         const bool millimetres = mesh.scale == 1 && (facts.high - facts.low).maxCoeff() > reach.radius;
-        throw UserError(fmt::format(
+        throw UserError(
             "{}: the mesh \"{}\" is far from all grains: it lies between ({:.4g}, {:.4g}, {:.4g}) and "
             "({:.4g}, "
             "{:.4g}, {:.4g}) m, and no grain comes further than {:.3g} m from ({:.4g}, {:.4g}, {:.4g}) m{}; "
@@ -126,7 +126,7 @@ void check_meshes_near(const Scene& scene, const Plan& plan) {
             facts.low.z(), facts.high.x(), facts.high.y(), facts.high.z(), reach.radius, reach.centre.x(),
             reach.centre.y(), reach.centre.z(), reach.fall > 0 ? ", or from below that" : "",
             millimetres ? "if its file is in millimetres, write scale = 0.001"
-                        : "change its 'position' or 'scale', or leave it out"));
+                        : "change its 'position' or 'scale', or leave it out");
     }
 }
 
@@ -139,11 +139,11 @@ void check_feed_boxes(const Scene& scene) {
             if (&mesh == scene.vessel()) continue;
             const std::optional<Vec3> place = touching_place(feed, mesh, 0.5 * diameter);
             if (!place) continue;
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}: the box of this feed reaches into the mesh \"{}\": at ({:.4g}, {:.4g}, {:.4g}) m "
                 "a grain of {:.4g} m across would touch it; move 'low' and 'high' away from it",
                 scene.where(fmt::format("feed[{}].low", k)), mesh.name, place->x(), place->y(), place->z(),
-                diameter));
+                diameter);
         }
     }
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -111,12 +110,12 @@ class BeforeFaces {
         if (deepest <= kDeep * smallest_extent(*mesh_.surface)) return;
         const bool own = paths_.scene.meshes[number_].moves();
         throw UserError(
-            fmt::format("{}: the mesh \"{}\" {} the {}: {} it is {:.3g} m behind it; make it smaller, move "
-                        "it, or let both "
-                        "move alike",
-                        paths_.scene.where(own ? paths_.motion_key(number_) : "container.turn"), mesh_.name,
-                        own ? "moves into" : "is in the way of", face.name,
-                        moment_text(paths_, own ? mesh_.body : face.body, step), deepest));
+            "{}: the mesh \"{}\" {} the {}: {} it is {:.3g} m behind it; make it smaller, move "
+            "it, or let both "
+            "move alike",
+            paths_.scene.where(own ? paths_.motion_key(number_) : "container.turn"), mesh_.name,
+            own ? "moves into" : "is in the way of", face.name,
+            moment_text(paths_, own ? mesh_.body : face.body, step), deepest);
     }
 
     const Paths& paths_;
@@ -251,12 +250,12 @@ void check_pair(const Paths& paths, std::size_t one, std::size_t other, Plan& pl
         const auto found = Crossings(paths, from, to).first();
         if (!found) continue;
         throw UserError(
-            fmt::format("{}: the mesh \"{}\" moves into \"{}\": {} they cross at ({:.4g}, {:.4g}, {:.4g}) m; "
-                        "make one of them "
-                        "smaller, move it, or let both move alike",
-                        place, first_moves ? a.name : b.name, first_moves ? b.name : a.name,
-                        moment_text(paths, paths.around.meshes[mover].body, found->step), found->place.x(),
-                        found->place.y(), found->place.z()));
+            "{}: the mesh \"{}\" moves into \"{}\": {} they cross at ({:.4g}, {:.4g}, {:.4g}) m; "
+            "make one of them "
+            "smaller, move it, or let both move alike",
+            place, first_moves ? a.name : b.name, first_moves ? b.name : a.name,
+            moment_text(paths, paths.around.meshes[mover].body, found->step), found->place.x(),
+            found->place.y(), found->place.z());
     }
 }
 

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/base/mathematics.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/random.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/start/starting_room.hpp"
 #include "engine/step/grid/neighbours.hpp"
+#include "engine/step/step_loop.hpp"
 
 namespace grainreel {
 
@@ -153,25 +154,24 @@ RunError still_overlap(const Growing& g, const StepLoop& loop, const GrowthRepor
     const auto share = [](const ContactView& c) { return c.overlap / c.smaller_radius; };
     const auto worst = std::max_element(all.begin(), all.end(),
                                         [&](const auto& a, const auto& b) { return share(a) < share(b); });
-    if (worst == all.end())
-        return RunError(fmt::format("{}: the grains do not grow", g.scene.where("species")));
+    if (worst == all.end()) return RunError("{}: the grains do not grow", g.scene.where("species"));
     const auto grain = static_cast<std::size_t>(worst->first);
     std::vector<std::string> walls;
     for (const ContactView& c : all) {
         if (c.first != worst->first || c.second >= 0) continue;
         const std::string name = wall_name(g.around, -1 - c.second);
-        if (std::find(walls.begin(), walls.end(), name) == walls.end()) walls.push_back(name);
+        if (!contains(walls, name)) walls.push_back(name);
     }
     const std::string cycles = fmt::format("after {} cycles of radius growth", report.cycles);
     if (walls.empty())
         return RunError(
-            fmt::format("{}: the grains still overlap by {:.2g} radii {}; take fewer or smaller grains, "
-                        "or a larger container",
-                        g.scene.where("species"), share(*worst), cycles));
-    return RunError(fmt::format(
+            "{}: the grains still overlap by {:.2g} radii {}; take fewer or smaller grains, "
+            "or a larger container",
+            g.scene.where("species"), share(*worst), cycles);
+    return RunError(
         "{}: grain {} still overlaps {} by {:.2g} radii {}; take start.method = \"rain\", a "
         "wider gap there, or fewer or smaller grains",
-        g.scene.where("species"), g.grains.id[grain], fmt::join(walls, " and "), share(*worst), cycles));
+        g.scene.where("species"), g.grains.id[grain], fmt::join(walls, " and "), share(*worst), cycles);
 }
 
 // The grains that are stuck between a mesh and a wall that faces it, which growth cannot push out; by id.
@@ -269,9 +269,9 @@ GrowthReport grow_radii(const Scene& scene, const Plan& plan, const Surroundings
     }
     if (!report)
         throw RunError(
-            fmt::format("{}: the grains find no room where they start, and fly apart while their "
-                        "radii grow; take fewer or smaller grains, or method = \"rain\"",
-                        scene.where("start")));
+            "{}: the grains find no room where they start, and fly apart while their "
+            "radii grow; take fewer or smaller grains, or method = \"rain\"",
+            scene.where("start"));
     if (!report->finished) return *report;
     come_to_rest(g);
     return *report;

@@ -1,6 +1,5 @@
 #include "engine/start/rain.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <functional>
 #include <numbers>
@@ -153,10 +152,10 @@ RainReport rain(const Scene& scene, const Plan& plan, const Surroundings& around
         if (shower.come() == scene.grains_at_start()) return report;
         const double waited = step * static_cast<double>(report.steps - last);
         if (waited > rain_patience(scene) + 1 / rate || report.steps + kStepsPerLook > plan.rain_steps_limit)
-            throw RunError(fmt::format(
+            throw RunError(
                 "{}: {} grains of {} have come as rain, and the next finds no room above them; use fewer "
                 "or smaller grains, a higher container, or method = \"layers\"",
-                scene.where("start.method"), shower.come(), all));
+                scene.where("start.method"), shower.come(), all);
         loop.run(first + report.steps, kStepsPerLook, step, 0);
         report.steps += kStepsPerLook;
         fallen.stop(grains);

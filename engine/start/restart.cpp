@@ -20,7 +20,7 @@ namespace grainreel {
 namespace {
 
 UserError cannot_start(const Scene& scene, const std::string& what) {
-    return UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
+    return UserError("{}: '{}' {}", scene.where("start.file"), scene.start.file, what);
 }
 
 // Opens the checkpoint; its content is still to be checked.
@@ -86,6 +86,14 @@ void save_checkpoint(const std::filesystem::path& path, const std::string& kept,
     write_vector(body, std::vector<char>(gathered.begin(), gathered.end()));
     write_state(body, header.step, grains, loop, given);
     write_checkpoint_file(path, body.str());
+}
+
+Scene continued(Scene scene, const std::filesystem::path& checkpoint) {
+    scene.start = {};
+    scene.start.method = Start::Method::file;
+    scene.start.file = checkpoint.string();
+    scene.start.keep_clock = true;
+    return scene;
 }
 
 CheckpointHeader continue_from_checkpoint(const Scene& scene, const Plan& plan, Grains& grains,
@@ -311,11 +319,11 @@ void check_same_future(const std::string& kept, const Scene& scene, const Plan& 
                              : "put back what it was";
     // Where a run is only continued, the scene does not have this key, and the advice would not help.
     const bool by_scene = scene.written.contains("start.keep_clock");
-    throw UserError(fmt::format(
-        "{}: '{}'{} is {}, but it was {} in the run that '{}' is from{}; {}{}", place_of(scene, key, between),
-        shown(key), between.empty() ? "" : " of " + shown(between), now.empty() ? "not there" : shown(now),
-        then.empty() ? "not there" : shown(then), scene.start.file, others_text(differences), advice,
-        by_scene ? ", or set start.keep_clock = false to start anew from its grains" : ""));
+    throw UserError("{}: '{}'{} is {}, but it was {} in the run that '{}' is from{}; {}{}",
+                    place_of(scene, key, between), shown(key), between.empty() ? "" : " of " + shown(between),
+                    now.empty() ? "not there" : shown(now), then.empty() ? "not there" : shown(then),
+                    scene.start.file, others_text(differences), advice,
+                    by_scene ? ", or set start.keep_clock = false to start anew from its grains" : "");
 }
 
 }  // namespace grainreel

@@ -35,6 +35,9 @@ void save_checkpoint(const std::filesystem::path& path, const std::string& kept,
 void write_state(std::ostream& out, std::int64_t step, const Grains& grains, const StepLoop& loop,
                  const std::vector<std::int64_t>& given = {});
 
+// The scene of a run that goes on from a checkpoint, at its clock.
+Scene continued(Scene scene, const std::filesystem::path& checkpoint);
+
 // The functions below that read a checkpoint throw UserError, at the scene's `start.file` or at the key that
 // differs, when the file is missing, damaged, of another version, or does not fit the scene. They check
 // everything in the file.

@@ -20,8 +20,8 @@ namespace {
 constexpr double kSameSize = 1e-6;  // relative: a diameter written by hand is not exact to the last bit
 [[noreturn]] void fail(const Scene& scene, const std::string& what) {
     if (scene.start.method == Start::Method::grains)
-        throw UserError(fmt::format("{}: the list {}", scene.where("grain"), what));
-    throw UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
+        throw UserError("{}: the list {}", scene.where("grain"), what);
+    throw UserError("{}: '{}' {}", scene.where("start.file"), scene.start.file, what);
 }
 
 }  // namespace
@@ -176,10 +176,10 @@ bool is_listed(const Scene& scene) {
 // Throws at the grain in the scene's list, or at the start file.
 [[noreturn]] void fail(const Scene& scene, std::int32_t id, const std::string& what) {
     if (is_listed(scene))
-        throw UserError(fmt::format("{}: the grain {}; move one of the two",
-                                    scene.where(fmt::format("grain[{}]", id)), what));
-    throw UserError(fmt::format("{}: grain {} of '{}' {}; {}", scene.where("start.file"), id,
-                                scene.start.file, what, kOtherContainer));
+        throw UserError("{}: the grain {}; move one of the two", scene.where(fmt::format("grain[{}]", id)),
+                        what);
+    throw UserError("{}: grain {} of '{}' {}; {}", scene.where("start.file"), id, scene.start.file, what,
+                    kOtherContainer);
 }
 
 void check_faces(const Scene& scene, const std::vector<Face>& faces, const Grains& grains, std::size_t i) {
@@ -240,8 +240,8 @@ void check_grains_clear(const Scene& scene, const Surroundings& around, const Gr
                         const StepLoop& loop) {
     const bool listed = is_listed(scene);
     const auto reject = [&](const std::string& what) {
-        if (listed) throw UserError(fmt::format("{}: the list {}", scene.where("grain"), what));
-        throw UserError(fmt::format("{}: '{}' {}", scene.where("start.file"), scene.start.file, what));
+        if (listed) throw UserError("{}: the list {}", scene.where("grain"), what);
+        throw UserError("{}: '{}' {}", scene.where("start.file"), scene.start.file, what);
     };
     loop.visit_contacts(-1, [&](const ContactView& c) {
         if (c.overlap <= kTooDeep * c.smaller_radius) return;

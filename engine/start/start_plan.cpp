@@ -15,7 +15,6 @@
 #include "engine/start/bed_in_file.hpp"
 #include "engine/start/held_histories.hpp"
 #include "engine/start/mesh_checks.hpp"
-#include "engine/start/restart.hpp"
 #include "engine/start/settle.hpp"
 
 namespace grainreel {

@@ -1,6 +1,5 @@
 #include "engine/start/starting_room.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -60,9 +59,9 @@ Vec3 StartingRoom::random_centre(double bottom, double top, double margin, doubl
 double StartingRoom::narrower(double margin, int draws) const {
     if (draws < kMostDraws * kMostDraws) return 0.5 * margin;
     throw UserError(
-        fmt::format("{}: no place was found for a grain in {} draws: the vessel or the region leaves hardly "
-                    "any room; make it larger, or take method = \"rain\"",
-                    place_, draws));
+        "{}: no place was found for a grain in {} draws: the vessel or the region leaves hardly "
+        "any room; make it larger, or take method = \"rain\"",
+        place_, draws);
 }
 
 bool StartingRoom::is_clear(const Vec3& centre, double margin) const {

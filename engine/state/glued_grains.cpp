@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/random.hpp"
 #include "engine/scene/bed.hpp"
@@ -134,7 +135,7 @@ GluedGrains glue_grains(const Scene& scene, const std::vector<Face>& faces) {
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const bool of_container =
             faces[f].body.number == kContainerBody || faces[f].body.number == kFloorBody;
-        if (!of_container || std::find(rough.begin(), rough.end(), faces[f].name) == rough.end()) continue;
+        if (!of_container || !contains(rough, faces[f].name)) continue;
         Random random(scene.run.seed, Stream::wall_grains, {static_cast<std::int64_t>(f)});
         fill(patch_of(scene.container, faces[f]), scene, faces[f], static_cast<std::int32_t>(f), random,
              glued);

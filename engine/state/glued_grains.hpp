@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/state/grains.hpp"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/base/team.hpp"
 #include "engine/base/vector.hpp"
 

@@ -9,7 +9,7 @@
 #include "engine/base/binary.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/step/forces/contact_forces.hpp"
 #include "engine/step/lists/large_bed.hpp"
@@ -303,10 +303,10 @@ void StepLoop::check_meshes() const {
             if (rules_.groups[rules_.group_of(static_cast<std::int32_t>(m), s)].number_size() ==
                 sizeof(float))
                 throw UserError(
-                    fmt::format("the mesh {} has {} triangles, and with run.precision = \"mixed\" a mesh may "
-                                "have at most {}; "
-                                "take run.precision = \"full\" or a coarser mesh",
-                                around_.meshes[m].name, triangles, kMostInFloats));
+                    "the mesh {} has {} triangles, and with run.precision = \"mixed\" a mesh may "
+                    "have at most {}; "
+                    "take run.precision = \"full\" or a coarser mesh",
+                    around_.meshes[m].name, triangles, kMostInFloats);
     }
 }
 

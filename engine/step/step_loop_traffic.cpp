@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/step/lists/change_owners.hpp"
 #include "engine/step/step_loop.hpp"
 
@@ -97,7 +98,7 @@ void StepLoop::let_leave(std::int64_t step) {
 void StepLoop::remove(const std::vector<std::int32_t>& ids, std::int64_t step) {
     std::vector<std::int32_t> leavers;
     for (std::int32_t i = 0; i < std::ssize(grains_.id); ++i)
-        if (std::find(ids.begin(), ids.end(), grains_.id[i]) != ids.end()) leavers.push_back(i);
+        if (contains(ids, grains_.id[i])) leavers.push_back(i);
     take_out(leavers, step);
 }
 
@@ -141,7 +142,7 @@ std::vector<bool> StepLoop::note_departures(const std::vector<std::int32_t>& lea
 // Sums the loads of some grains from their contacts as they are now. If the next step does not begin with a
 // kick by these forces, the loads stay zero.
 void StepLoop::sum_loads_anew(const std::vector<bool>& of, std::int64_t step) {
-    if (std::find(of.begin(), of.end(), true) == of.end()) return;
+    if (!contains(of, true)) return;
     for (std::size_t i = 0; i < of.size(); ++i)
         if (of[i]) grains_.load[i] = {};
     if (scheme_.moves_after_forces()) return;

@@ -10,9 +10,8 @@
 #include <utility>
 
 #include "engine/base/counted.hpp"
-#include "engine/base/error.hpp"
-#include "engine/base/own_folder.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/system/own_folder.hpp"
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/peers_bed.hpp"
 #include "render/app/messages/reporter.hpp"
@@ -47,7 +46,7 @@ FilmedScene scene_of(const SettledBed& bed, const BenchRenderRequest& request) {
     scene.film = request.film;
     scene.species = {species("small", kPeersSmall), species("big", kPeersBig)};
     scene.colours = {{0.337, 0.706, 0.914}, {0.902, 0.624, 0.0}};
-    for (const std::int32_t kind : bed.grains.species) ++scene.species[static_cast<std::size_t>(kind)].count;
+    for (const std::int32_t kind : bed.grains.species) ++scene.species[kind].count;
     scene.container.shape = Container::Shape::box;
     scene.container.half_width = 0.5 * bed.side;
     scene.container.depth = bed.side;
@@ -81,10 +80,10 @@ void fill_picture(FilmedScene& scene, const State& frame) {
     const View view = frame_container(scene, plan_layout(scene));
     double widest = 1, highest = 1;  // largest distances from the middle in pixels
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        const Vec3 at = view.to_view(frame.position[i]);
-        const double scale = view.focal / (view.orthographic ? 1 : at.z());
-        widest = std::max(widest, (std::abs(at.x()) + frame.radius[i]) * scale);
-        highest = std::max(highest, (std::abs(at.y()) + frame.radius[i]) * scale);
+        const Vec3 seen = view.to_view(frame.position[i]);
+        const double scale = view.focal / (view.orthographic ? 1 : seen.z());
+        widest = std::max(widest, (std::abs(seen.x()) + frame.radius[i]) * scale);
+        highest = std::max(highest, (std::abs(seen.y()) + frame.radius[i]) * scale);
     }
     scene.film.camera.zoom =
         zoom * std::min(0.5 * view.port.height / highest, 0.5 * view.port.width / widest);
@@ -199,9 +198,9 @@ void keep(const std::filesystem::path& folder, const Picture& picture, const Sta
     write_png(folder / "picture.png", picture, {});
     std::string table = "x,y,z,radius,species\n";
     for (std::size_t i = 0; i < frame.size(); ++i) {
-        const Vec3 at = view.to_view(frame.position[i]);
-        table += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{}\n", at.x(), at.y(), at.z(), frame.radius[i],
-                             frame.species[i]);
+        const Vec3 seen = view.to_view(frame.position[i]);
+        table += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{}\n", seen.x(), seen.y(), seen.z(),
+                             frame.radius[i], frame.species[i]);
     }
     replace_file(folder / "grains.csv", table);
     const Lamp lamp;

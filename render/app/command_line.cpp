@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/lists.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "render/app/messages/reporter.hpp"
@@ -33,14 +34,13 @@ using Verbs = std::vector<std::unique_ptr<Verb>>;
 void check_verb(const Verbs& verbs, const std::string& word) {
     std::vector<std::string> names;
     for (const auto& verb : verbs) names.push_back(verb->name());
-    if (word[0] == '-' || std::find(names.begin(), names.end(), word) != names.end()) return;
+    if (word[0] == '-' || contains(names, word)) return;
     std::optional<std::string> meant = nearest_name(word, names);
     if (word.ends_with(".toml")) meant = "movie " + excerpt(word);
-    throw UserError(
-        fmt::format("{}; {}there are {}; see {} --help",
+    throw UserError("{}; {}there are {}; see {} --help",
                     word.empty() ? "no command" : fmt::format("unknown command '{}'", excerpt(word)),
                     meant && !word.empty() ? fmt::format("did you mean '{}'? ", *meant) : "",
-                    fmt::join(names, ", "), program_call()));
+                    fmt::join(names, ", "), program_call());
 }
 
 // The option's name in a word: "--duratoin" for "--duratoin=3". Empty when the word is not a long option.
@@ -55,11 +55,10 @@ void check_options(const Verb& verb, const CLI::App& parser, int argc, const cha
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (int i = 2; i < argc && std::string_view(argv[i]) != "--"; ++i) {
         const std::string word = option_name(argv[i]);
-        if (word.empty() || std::find(names.begin(), names.end(), word) != names.end()) continue;
+        if (word.empty() || contains(names, word)) continue;
         const std::optional<std::string> meant = nearest_name(word, names);
-        throw UserError(fmt::format("unknown option '{}'; {}see {} {} --help", excerpt(word),
-                                    meant ? fmt::format("did you mean '{}'? ", *meant) : "", program_call(),
-                                    verb.name()));
+        throw UserError("unknown option '{}'; {}see {} {} --help", excerpt(word),
+                        meant ? fmt::format("did you mean '{}'? ", *meant) : "", program_call(), verb.name());
     }
 }
 
@@ -90,8 +89,8 @@ class ShortFormatter final : public CLI::Formatter {
 // The text of a help page, with the program named in its commands as the user calls it.
 std::string as_called(std::string text) {
     const std::string name = "grainreel ", call = program_call() + " ";
-    for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; at += call.size())
-        text.replace(at, name.size(), call);
+    for (std::size_t place = 0; (place = text.find(name, place)) != std::string::npos; place += call.size())
+        text.replace(place, name.size(), call);
     return text;
 }
 
@@ -166,7 +165,7 @@ CommandOption option_of(const CLI::Option& option) {
 }
 
 bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
-    return std::find(words.begin(), words.end(), word) != words.end();
+    return contains(words, word);
 }
 
 }  // namespace
@@ -230,12 +229,10 @@ std::unique_ptr<Verb> parse_command_line(int argc, const char* const* argv) {
         if (dynamic_cast<const CLI::ExtrasError*>(&mistake) != nullptr && argc > 4 &&
             are_files(argv + 2, argc - 2))
             throw UserError(
-                fmt::format("{}: one file or pattern is taken, and the shell made {} files of it; put the "
-                            "pattern in quotes, or give "
-                            "the folder",
-                            argv[1], argc - 2));
-        throw UserError(
-            fmt::format("{}; see {}", excerpt(mistake.what(), most_of_a_mistake), help_about(app, verbs)));
+                "{}: one file or pattern is taken, and the shell made {} files of it; put the pattern in "
+                "quotes, or give the folder",
+                argv[1], argc - 2);
+        throw UserError("{}; see {}", excerpt(mistake.what(), most_of_a_mistake), help_about(app, verbs));
     }
     const auto chosen = std::find_if(verbs.begin(), verbs.end(),
                                      [&](const auto& verb) { return app.got_subcommand(verb->name()); });

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/base/error.hpp"
-#include "engine/base/own_files.hpp"
+#include "engine/base/system/own_files.hpp"
 #include "engine/base/text.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"

@@ -47,13 +47,13 @@ void write_png_file(const std::filesystem::path& path, int width, int height,
     if (png_image_write_to_file(&png, part.c_str(), 0, rgba.data(), 0, nullptr) == 0) {
         const std::string why = errno != 0 ? std::strerror(errno) : png.message;
         std::filesystem::remove(part, error);
-        throw RunError(fmt::format("{}: cannot be written: {}", path.string(), why));
+        throw RunError("{}: cannot be written: {}", path.string(), why);
     }
     std::filesystem::rename(part, path, error);
     if (!error) return;
     const std::string why = error.message();
     std::filesystem::remove(part, error);
-    throw RunError(fmt::format("{}: cannot be written: {}", path.string(), why));
+    throw RunError("{}: cannot be written: {}", path.string(), why);
 }
 
 // Adds species that only the frame has, as "type 2" and so on. Counts the grains of species that the scene
@@ -179,8 +179,8 @@ void refuse_unknown(const FilmShows& shows, const FilmShows& own = {}) {
                        : wants(needs_measures)     ? "measures"
                                                    : nullptr;
     if (what != nullptr)
-        throw UserError(fmt::format(
-            "a painter draws frames alone and knows no {0}; take out the setting that shows {0}", what));
+        throw UserError("a painter draws frames alone and knows no {0}; take out the setting that shows {0}",
+                        what);
 }
 
 // Throws UserError for a colour of grains that needs what frames do not have. Reading the settings would ask

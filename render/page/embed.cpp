@@ -42,8 +42,8 @@ std::string html_text(std::string_view text) {
 }
 
 std::string json_in_html(std::string json) {
-    for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
-        json.replace(at, 1, "\\u003c");
+    for (std::size_t place = json.find('<'); place != std::string::npos; place = json.find('<', place))
+        json.replace(place, 1, "\\u003c");
     return json;
 }
 
@@ -68,10 +68,10 @@ std::string filled(std::string_view page,
         const std::size_t close = page.find("}}", open);
         GRAINREEL_CHECK(close != std::string_view::npos);
         const std::string_view name = page.substr(open + 2, close - open - 2);
-        const auto found =
+        const auto named =
             std::find_if(texts.begin(), texts.end(), [&](const auto& text) { return text.first == name; });
-        GRAINREEL_CHECK(found != texts.end());
-        result += found->second;
+        GRAINREEL_CHECK(named != texts.end());
+        result += named->second;
         page.remove_prefix(close + 2);
     }
 }
@@ -81,10 +81,10 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t there = std::min<std::size_t>(3, bytes.size() - i);
+        const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
         std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < there ? bytes[i + k] : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += k <= there ? signs[three >> (18 - 6 * k) & 63] : '=';
+        for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < left ? bytes[i + k] : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += k <= left ? signs[three >> (18 - 6 * k) & 63] : '=';
     }
     return text;
 }
@@ -99,13 +99,12 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
     constexpr std::uintmax_t most = 64'000'000;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) throw RunError(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
-    if (size > most)
-        throw RunError(fmt::format("{}: has {} bytes, too many for a page", path.string(), size));
+    if (error) throw RunError("{}: cannot be read: {}", path.string(), error.message());
+    if (size > most) throw RunError("{}: has {} bytes, too many for a page", path.string(), size);
     std::vector<std::uint8_t> bytes(size);
     std::ifstream file = read_plain(path);
     file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (!file) throw RunError(fmt::format("{}: cannot be read", path.string()));
+    if (!file) throw RunError("{}: cannot be read", path.string());
     return bytes;
 }
 

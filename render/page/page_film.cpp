@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
-#include "engine/base/own_folder.hpp"
+#include "engine/base/system/own_folder.hpp"
 #include "engine/base/team.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/plan/plan.hpp"
@@ -16,6 +16,7 @@
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_file.hpp"
 
+#include "engine/base/plain_file.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/film/sampling/timeline.hpp"
 #include "render/page/embed.hpp"
@@ -63,7 +64,7 @@ std::vector<std::uint8_t> smaller_copy(const FilmedScene& scene, const fs::path&
     }
     graph.end();
     take_pictures();
-    if (!copy) throw RunError(fmt::format("{}: holds no picture", film.string()));
+    if (!copy) throw RunError("{}: holds no picture", film.string());
     copy->finish();
     return read_bytes(settings.path);
 }
@@ -148,8 +149,7 @@ PageFilm page_film(const FilmedScene& scene, const fs::path& folder, std::option
 }
 
 std::vector<std::uint8_t> page_poster(const fs::path& folder) {
-    std::error_code ignored;
-    if (!fs::exists(folder / "poster.png", ignored)) return {};
+    if (!is_there(folder / "poster.png")) return {};
     quiet_ffmpeg();
     try {
         FilmReader reader(folder / "poster.png");
@@ -187,12 +187,9 @@ bool may_lack_frames(const FilmedScene& scene) {
 std::optional<FilmTimes> kept_film_times(const std::filesystem::path& folder, std::int64_t frames) {
     const auto table = read_measures(folder / kFilmTimes);
     if (!table || frames <= 0 || static_cast<std::int64_t>(table->rows()) != frames) return std::nullopt;
-    const auto& names = table->columns();
-    const auto column =
-        static_cast<std::size_t>(std::find(names.begin(), names.end(), "time_s") - names.begin());
-    if (column == names.size()) return std::nullopt;
     FilmTimes result;
-    result.times = table->values(column, 0, table->rows());
+    result.times = table->all("time_s");
+    if (result.times.empty()) return std::nullopt;
     const bool finite = std::all_of(result.times.begin(), result.times.end(),
                                     [](double time) { return std::isfinite(time); });
     if (!finite || !std::is_sorted(result.times.begin(), result.times.end())) return std::nullopt;

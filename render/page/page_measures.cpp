@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string_view>
 
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/text/units.hpp"
@@ -116,7 +117,6 @@ using Values = std::vector<double>;
 
 constexpr std::size_t most_cells = 4'000'000;         // cells of a record in the file
 constexpr std::size_t most_plain_bytes = 20'000'000;  // bytes of the page's fields before they are packed
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double most_level = 254;  // highest level of a value in a byte; 255 means no value
 
 // The name of a species as it stands in the names of its variables in fields.nc (FieldsWriter).
@@ -175,7 +175,7 @@ class FieldsFile {
                 total += value * part;
                 weight += part;
             }
-            plane[cell] = sum ? total : weight > 0 ? total / weight : none;
+            plane[cell] = sum ? total : weight > 0 ? total / weight : kUnknown;
         }
         return plane;
     }
@@ -248,7 +248,7 @@ std::vector<Made> quantities_of(const FilmedScene& scene, const FieldsFile& file
 }
 
 void find_ends(FieldQuantity& quantity, const Values& values, bool first) {
-    if (first) quantity.low = quantity.high = none;
+    if (first) quantity.low = quantity.high = kUnknown;
     for (const double value : values) {
         if (!std::isfinite(value)) continue;
         quantity.low = std::isfinite(quantity.low) ? std::min(quantity.low, value) : value;
@@ -307,8 +307,7 @@ PageFields read_fields(const FilmedScene& scene, const FieldsFile& file) {
 }  // namespace
 
 PageFields page_fields(const FilmedScene& scene, const fs::path& folder) {
-    std::error_code ignored;
-    if (!scene.output.fields.wanted() || !fs::exists(folder / "fields.nc", ignored)) return {};
+    if (!scene.output.fields.wanted() || !is_there(folder / "fields.nc")) return {};
     try {
         return read_fields(scene, FieldsFile(folder / "fields.nc"));
     } catch (const UserError& problem) {

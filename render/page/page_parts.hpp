@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "engine/files/run_json.hpp"
 #include "render/page/bed/page_bed.hpp"
 #include "render/page/bed/page_meshes.hpp"
-#include "render/page/facts/methods.hpp"
 #include "render/page/page_film.hpp"
 #include "render/page/page_words.hpp"
 #include "render/page/report.hpp"

@@ -62,7 +62,7 @@ class Page {
     // Whether the page lies in the folder of the run, with its files.
     bool lies_beside(const RunPart& part) const {
         std::error_code ignored;
-        const fs::path folder = out_.has_parent_path() ? out_.parent_path() : fs::path(".");
+        const fs::path folder = folder_around(out_);
         return parts_.size() == 1 && fs::equivalent(folder, part.folder(), ignored);
     }
 
@@ -155,7 +155,7 @@ class Page {
         std::string about;
         for (const RunPart& part : parts_) about += (about.empty() ? "" : ", ") + part.name();
         std::error_code ignored;
-        const fs::path folder = out_.has_parent_path() ? out_.parent_path() : fs::path(".");
+        const fs::path folder = folder_around(out_);
         return fmt::format(
             "<section aria-labelledby=\"film-title\">\n<h2 id=\"film-title\">{}</h2>\n{}<p "
             "id=\"film-says-all\" class=\"faint no-print\"></p>\n</section>\n",

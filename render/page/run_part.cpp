@@ -5,13 +5,15 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/run/resume/kept_files.hpp"
 #include "engine/run/stored/kept_list.hpp"
 #include "render/film/sampling/film_frames.hpp"
 #include "render/page/bed/film_colours.hpp"
 #include "render/page/embed.hpp"
+#include "render/page/facts/methods.hpp"
 #include "render/page/page_parts.hpp"
 
 namespace grainreel {
@@ -102,8 +104,7 @@ void RunPart::read_table(const fs::path& file) {
         return;
     if (!read.table)
         no_charts_ = fmt::format("{}: {}", name, is_there(file) ? "is empty" : "is missing");
-    else if (std::find(read.table->columns().begin(), read.table->columns().end(), "time_s") ==
-             read.table->columns().end())
+    else if (!contains(read.table->columns(), "time_s"))
         no_charts_ = fmt::format("{}:1: lacks the column time_s", name);
     else if (!read.fault.empty())
         table_fault_ = read.fault;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/files/run_json.hpp"
 #include "render/page/embed.hpp"
-#include "render/page/facts/methods.hpp"
 #include "render/page/facts/page_facts.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/page/page_parts.hpp"
@@ -36,8 +36,6 @@ class RunPart {
     const PageWords& words() const { return say_; }
     std::string title() const;  // HTML
     Span span() const;          // span of the trajectory and the film
-    // Whether the moments of the film's frames are known, so that the film moves with charts and bed.
-    bool tied() const { return !times_.times.empty(); }
 
     std::string lead() const { return lead_; }
     bool has_film() const { return !film_.bytes.empty() || !poster_.empty(); }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/plain_file.hpp"
 #include "engine/files/run_json.hpp"
 #include "render/film/codec/codec.hpp"
 #include "render/film/codec/film_file.hpp"
@@ -16,10 +17,9 @@ namespace fs = std::filesystem;
 
 // The scene with the format of the film that lies in the folder.
 FilmedScene in_format_of(FilmedScene scene, const fs::path& folder) {
-    std::error_code ignored;
     for (const auto& [word, format] : film_format_words) {
         if (format == FilmFormat::png || format == FilmFormat::y4m) continue;
-        if (!fs::exists(folder / (std::string("movie.") + codec_of(format).extension), ignored)) continue;
+        if (!is_there(folder / (std::string("movie.") + codec_of(format).extension))) continue;
         scene.film.format = format;
         break;
     }

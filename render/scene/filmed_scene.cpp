@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/plan/resolved_scene.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/chapters.hpp"
@@ -26,7 +27,7 @@ Wishes wishes_of(const FilmedScene& scene) {
     Wishes wishes;
     const auto take_instrument = [&](const std::string& name) {
         std::vector<std::string>& taken = wishes.instruments;
-        if (std::find(taken.begin(), taken.end(), name) == taken.end()) taken.push_back(name);
+        if (!contains(taken, name)) taken.push_back(name);
     };
     const auto take = [&](const std::string& name) {
         for (const MeasureColumn& column : scene.measurable.columns)
@@ -69,7 +70,7 @@ namespace {
 constexpr double closest_camera = 1e-6;
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
-    throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
+    throw UserError("{}: '{}' {}", scene.where(key), name_of(key), what);
 }
 
 void check_film(const FilmedScene& scene) {

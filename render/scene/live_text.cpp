@@ -30,8 +30,8 @@ LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& 
     const std::string name = inside.substr(0, colon);
     const MeasureColumn* column = find_column(columns, name);
     if (column == nullptr)
-        throw UserError(fmt::format("has {{{}}}, which is no column of measures.csv; there are {}",
-                                    excerpt(name), column_names(columns)));
+        throw UserError("has {{{}}}, which is no column of measures.csv; there are {}", excerpt(name),
+                        column_names(columns));
     LiveWords value;
     value.column = column->name;
     if (column->dimension == Dimension::number) {
@@ -41,8 +41,7 @@ LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& 
             return value;
         }
         if (colon != std::string::npos)
-            throw UserError(
-                fmt::format("gives {{{}}} a unit, but it is a pure number; leave it out, or write %", name));
+            throw UserError("gives {{{}}} a unit, but it is a pure number; leave it out, or write %", name);
         return value;
     }
     const std::string own = unit_in_name(*column);
@@ -86,19 +85,19 @@ std::string column_names(const std::vector<MeasureColumn>& columns) {
 std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns) {
     std::vector<LiveWords> all;
     std::string words;
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        if (text[at] != '{' || text.compare(at, 2, "{{") == 0) {
-            words += text[at];
-            at += text[at] == '{' ? 1 : 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '{' || text.compare(i, 2, "{{") == 0) {
+            words += text[i];
+            i += text[i] == '{' ? 1 : 0;
             continue;
         }
-        const std::size_t end = text.find('}', at);
+        const std::size_t end = text.find('}', i);
         if (end == std::string::npos)
             throw UserError("has a { without its }; write {lacey} for a value, or {{ for a brace");
-        all.push_back(value_of(text.substr(at + 1, end - at - 1), columns));
+        all.push_back(value_of(text.substr(i + 1, end - i - 1), columns));
         all.back().words = std::move(words);
         words.clear();
-        at = end + length_of_unit(std::string_view(text).substr(end + 1), all.back().unit);
+        i = end + length_of_unit(std::string_view(text).substr(end + 1), all.back().unit);
     }
     if (!words.empty()) all.push_back({std::move(words), "", "", 1});
     return all;

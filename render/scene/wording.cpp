@@ -210,15 +210,15 @@ std::string Wording::operator()(Word word, std::initializer_list<std::string_vie
         mine != own.end() ? std::string_view(mine->text)
                           : std::string_view(row_of(word).texts[static_cast<std::size_t>(language)]);
     std::string text;
-    for (std::size_t at = 0; at < pattern.size(); ++at) {
-        if (!is_part(pattern, at)) {
-            text += pattern[at];
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+        if (!is_part(pattern, i)) {
+            text += pattern[i];
             continue;
         }
-        const auto part = static_cast<std::size_t>(pattern[at + 1] - '1');
+        const auto part = static_cast<std::size_t>(pattern[i + 1] - '1');
         GRAINREEL_CHECK(part < parts.size());
         text += parts.begin()[part];
-        at += 2;
+        i += 2;
     }
     return text;
 }
@@ -239,12 +239,12 @@ const char* english_of(Word word) {
 
 int parts_in(std::string_view text) {
     int most = 0;
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        if (text[at] == '}') return -1;
-        if (text[at] != '{') continue;
-        if (!is_part(text, at)) return -1;
-        most = std::max(most, text[at + 1] - '0');
-        at += 2;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '}') return -1;
+        if (text[i] != '{') continue;
+        if (!is_part(text, i)) return -1;
+        most = std::max(most, text[i + 1] - '0');
+        i += 2;
     }
     return most;
 }

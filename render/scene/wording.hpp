@@ -3,7 +3,6 @@
 // render includes this header: keep it light.
 #pragma once
 
-#include <cstddef>
 #include <initializer_list>
 #include <string>
 #include <string_view>

@@ -1,5 +1,5 @@
 // Tests of folders for temporary files.
-#include "engine/base/own_folder.hpp"
+#include "engine/base/system/own_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>

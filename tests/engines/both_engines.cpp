@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 #include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/state/drive_motion.hpp"
 #include "tests/engines/handed.hpp"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.hpp"
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 #include "engine/handover/peer_process.hpp"
 #include "tests/engines/handed.hpp"
 #include "tests/support/small_scene.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/handover/deck_dump.hpp"
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "tests/engines/handed.hpp"
 #include "tests/support/temporary_folder.hpp"

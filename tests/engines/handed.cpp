@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/handover/peer_process.hpp"
 #include "engine/handover/start_state.hpp"

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "engine/handover/bring_back.hpp"
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 #include "engine/handover/peer_process.hpp"
 #include "tests/engines/handed.hpp"
 #include "tests/support/tells.hpp"

@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/base/own_folder.hpp"
+#include "engine/base/system/own_folder.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "tests/cli/small_disk.hpp"
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 
 namespace grainreel {
 namespace {

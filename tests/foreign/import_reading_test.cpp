@@ -13,7 +13,7 @@
 #include "engine/base/error.hpp"
 #include "engine/run/import/import_run.hpp"
 #include "tests/cli/small_disk.hpp"
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 

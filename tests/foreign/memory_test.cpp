@@ -10,7 +10,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/files/foreign/raw_series.hpp"
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 
 namespace grainreel {
 namespace {

@@ -17,7 +17,7 @@
 #include "engine/files/frames/state_writer.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/run/import/import_run.hpp"
-#include "tests/foreign/dump_files.hpp"
+#include "tests/foreign/dumps/dump_files.hpp"
 #include "tests/support/tells.hpp"
 #include "tests/support/temporary_folder.hpp"
 

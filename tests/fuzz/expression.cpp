@@ -1,5 +1,5 @@
 // Expressions on grains, with units, names and species; what is one is worked out for a grain.
-#include "engine/questions/expression.hpp"
+#include "engine/questions/expressions/expression.hpp"
 #include "engine/base/error.hpp"
 #include "tests/fuzz/targets.hpp"
 

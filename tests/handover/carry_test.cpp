@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/handover/carry.hpp"
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "tests/support/small_scene.hpp"
 #include "tests/support/tells.hpp"

@@ -1,5 +1,5 @@
 // Steps at which engines dump: the formula of the deck gives just the steps that are wanted.
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 
 #include <cmath>
 

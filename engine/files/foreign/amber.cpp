@@ -13,8 +13,9 @@
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/netcdf/hdf5_trial.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
@@ -127,8 +128,8 @@ AmberFile::AmberFile(const std::filesystem::path& file) : RawFile(file), netcdf_
 
 // what: what the file lacks of the AMBER convention.
 void AmberFile::refuse_as_not_amber(const char* what) const {
-    throw UserError(fmt::format("{}: is {}, but {}, as the AMBER convention says", file_.string(),
-                                is_hdf5(file_) ? "HDF5" : "NetCDF", what));
+    throw UserError("{}: is {}, but {}, as the AMBER convention says", file_.string(),
+                    is_hdf5(file_) ? "HDF5" : "NetCDF", what);
 }
 
 void AmberFile::find_dimensions() {
@@ -142,9 +143,8 @@ void AmberFile::find_dimensions() {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(file_, error);
     if (error || grains_ > size * most_packing || frames_ > size * most_packing)
-        throw UserError(
-            fmt::format("{}: says that it has {} frames of {} grains, which its {} bytes cannot hold",
-                        file_.string(), frames_, grains_, error ? 0 : size));
+        throw UserError("{}: says that it has {} frames of {} grains, which its {} bytes cannot hold",
+                        file_.string(), frames_, grains_, error ? 0 : size);
 }
 
 void AmberFile::find_variables() {
@@ -211,16 +211,16 @@ std::vector<double> AmberFile::numbers(const AmberVariable& variable, std::size_
 // Tells of what lies behind the frames that the header counts.
 void AmberFile::tell_of_length() {
     if (!netcdf_.has_dimension("frame") || !netcdf_.has_records()) return;
-    const std::size_t there = netcdf_.whole_records();
-    if (there > declared_)
+    const std::size_t room = netcdf_.whole_records();
+    if (room > declared_)
         news_.push_back(
             fmt::format("{}: its header counts {}, and there is room for {}; those behind are left "
                         "out. Was it still "
                         "being written, or is it damaged?",
-                        file_.string(), counted(declared_, "frame"), there));
+                        file_.string(), counted(declared_, "frame"), room));
     constexpr std::uint64_t padding = 4;  // bytes
     const std::uint64_t behind = netcdf_.bytes_behind_records();
-    if (there == declared_ && behind >= padding)
+    if (room == declared_ && behind >= padding)
         news_.push_back(
             fmt::format("{}: {} bytes lie behind its {} and belong to none; was another frame being "
                         "written, or is it damaged?",
@@ -231,17 +231,16 @@ void AmberFile::tell_of_length() {
 // counted any.
 void AmberFile::refuse_without_frames() const {
     const std::string name = file_.string();
-    if (declared_ > 0)
-        throw UserError(fmt::format("{}: has no frame that is whole; was it copied to the end?", name));
+    if (declared_ > 0) throw UserError("{}: has no frame that is whole; was it copied to the end?", name);
     const std::size_t behind = netcdf_.whole_records();
-    if (behind == 0) throw UserError(fmt::format("{}: has no frame", name));
+    if (behind == 0) throw UserError("{}: has no frame", name);
     std::string count;
     for (int k = netcdf_.header().count_bytes - 1; k >= 0; --k)
         count += fmt::format("\\{:03o}", behind >> 8 * k & 0xffU);
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: its header counts no frame, and behind it there is room for {}; if the program that "
         "wrote it was stopped, put this count there: printf '{}' | dd of={} bs=1 seek=4 conv=notrunc",
-        name, behind, count, name));
+        name, behind, count, name);
 }
 
 // Number of grains in a frame. The places after them have the fill value.
@@ -254,8 +253,7 @@ std::size_t AmberFile::grains_of(std::size_t frame) const {
     while (grains > 0 && values[(grains - 1) * width] == fill) --grains;
     for (std::size_t i = 0; i < grains * width; ++i)
         if (values[i] == fill || !std::isfinite(values[i]))
-            throw UserError(
-                fmt::format("{}: frame {}: grain {} has no place", file_.string(), frame, i / width));
+            throw UserError("{}: frame {}: grain {} has no place", file_.string(), frame, i / width);
     return grains;
 }
 
@@ -378,8 +376,7 @@ bool takes_amber(const FileStart& head) {
 // Also called for files of HDF5 that are not H5MD.
 std::unique_ptr<RawFile> open_amber(const std::filesystem::path& file) {
     if (packing_of(file) != Packing::none)
-        throw UserError(
-            fmt::format("{}: a NetCDF file is not read while it is packed; unpack it", file.string()));
+        throw UserError("{}: a NetCDF file is not read while it is packed; unpack it", file.string());
     const std::lock_guard lock(hdf5_library());
     if (is_hdf5(file))
         try_in_child(file, [&] {

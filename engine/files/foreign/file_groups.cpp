@@ -1,6 +1,5 @@
 #include "engine/files/foreign/file_groups.hpp"
 
-#include <fmt/format.h>
 #include <glob.h>
 #include <algorithm>
 #include <map>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
@@ -212,14 +212,13 @@ FileGroup series_of(const fs::path& file) {
     if (named.numbers.empty()) return {file.string(), {file}};
     const std::string skeleton = skeleton_of(named);
     std::vector<fs::path> alike;
-    for (const fs::path& other : files_in(file.has_parent_path() ? file.parent_path() : fs::path("."))) {
+    for (const fs::path& other : files_in(folder_around(file))) {
         const fs::path path = file.has_parent_path() ? other : other.filename();
         const NumberedFile one{path, numbers_in(path.filename().string())};
         if (!one.numbers.empty() && skeleton_of(one) == skeleton) alike.push_back(path);
     }
     for (FileGroup& group : grouped(alike))
-        if (std::find(group.files.begin(), group.files.end(), file) != group.files.end())
-            return std::move(group);
+        if (contains(group.files, file)) return std::move(group);
     return {file.string(), {file}};
 }
 
@@ -240,9 +239,8 @@ std::vector<fs::path> files_of_pattern(const fs::path& pattern) {
             if (is_plain(found.gl_pathv[i])) files.emplace_back(found.gl_pathv[i]);
     globfree(&found);
     if (files.empty())
-        throw UserError(
-            fmt::format("{}: no file has such a name; quote the pattern so that the shell leaves it alone",
-                        pattern.string()));
+        throw UserError("{}: no file has such a name; quote the pattern so that the shell leaves it alone",
+                        pattern.string());
     return files;
 }
 

@@ -65,9 +65,9 @@ void check_time_step(double step, const std::vector<double>& times) {
     for (const double time : times) last = std::max(last, std::abs(time));
     if (step < shortest || last > longest)
         throw UserError(
-            fmt::format("--time-step {:g}: gives times up to {:.3g} s; a step is {:g} s at least, and "
-                        "times are {:g} s at most",
-                        step, last, shortest, longest));
+            "--time-step {:g}: gives times up to {:.3g} s; a step is {:g} s at least, and "
+            "times are {:g} s at most",
+            step, last, shortest, longest);
 }
 
 }  // namespace
@@ -147,8 +147,8 @@ void ForeignArchive::list_moments() {
     }
     for (std::size_t k = 1; k < moments_.size(); ++k)
         if (moments_[k].time < moments_[k - 1].time)
-            throw UserError(fmt::format("{}: its time falls from {:.6g} to {:.6g} s; is it of two runs?",
-                                        grains_->place(k), moments_[k - 1].time, moments_[k].time));
+            throw UserError("{}: its time falls from {:.6g} to {:.6g} s; is it of two runs?",
+                            grains_->place(k), moments_[k - 1].time, moments_[k].time);
 }
 
 // Refuses steps and times (s) that no run reaches, because a damaged file has them.
@@ -156,13 +156,12 @@ void ForeignArchive::check_clock(const std::vector<double>& times) const {
     constexpr std::int64_t most_steps = 9'000'000'000'000'000;  // whole numbers that a double holds
     for (std::size_t k = 0; k < raw_steps_.size(); ++k)
         if (raw_steps_[k] <= -most_steps || raw_steps_[k] >= most_steps)
-            throw UserError(fmt::format("{}: has the step {}, which no run reaches; is the file damaged?",
-                                        grains_->place(k), raw_steps_[k]));
+            throw UserError("{}: has the step {}, which no run reaches; is the file damaged?",
+                            grains_->place(k), raw_steps_[k]);
     for (std::size_t k = 0; k < times.size(); ++k)
         if (!(std::abs(times[k]) <= kLongestTime))
-            throw UserError(
-                fmt::format("{}: has the time {:.6g} s, which no run reaches; is the file damaged?",
-                            grains_->place(k), times[k]));
+            throw UserError("{}: has the time {:.6g} s, which no run reaches; is the file damaged?",
+                            grains_->place(k), times[k]);
 }
 
 const RawFrame& ForeignArchive::raw(std::size_t index) const {
@@ -251,8 +250,8 @@ std::optional<std::vector<Link>> ForeignArchive::touches(std::size_t index) cons
         return all;
     };
     if (!contacts_) return read(raw(index), grains_->place(index));
-    const std::size_t found = contacts_at_.at(raw_steps_.at(index));
-    return read(contacts_->read(found), contacts_->place(found));
+    const std::size_t moment = contacts_at_.at(raw_steps_.at(index));
+    return read(contacts_->read(moment), contacts_->place(moment));
 }
 
 std::vector<std::string> ForeignArchive::news_of_frames() const {
@@ -314,9 +313,8 @@ void ForeignArchive::decide_velocities() {
         const double moved = way(before.position[i], after.position[*row], box).norm();
         near += moved < 2 * before.radius[i];
         if (options_.time_step && interval > 0 && moved / interval > fastest)
-            throw UserError(
-                fmt::format("--time-step {:g}: with it, grain {} moves at {:.3g} m/s; give a longer one",
-                            *options_.time_step, before.id[i], moved / interval));
+            throw UserError("--time-step {:g}: with it, grain {} moves at {:.3g} m/s; give a longer one",
+                            *options_.time_step, before.id[i], moved / interval);
     }
     derived_ = both > 0 && static_cast<double>(near) >= 0.95 * static_cast<double>(both);
     news_.push_back(

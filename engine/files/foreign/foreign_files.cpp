@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/foreign/file_groups.hpp"
 #include "engine/files/run_json.hpp"
@@ -82,31 +83,28 @@ std::string drawn_in(const fs::path& folder) {
 
 std::vector<fs::path> files_named(const std::string& name) {
     const fs::path path = name;
-    std::error_code ignored;
     if (is_pattern(path)) return without_passed_over(files_of_pattern(path));
-    if (!fs::is_directory(path, ignored)) return {path};
-    if (fs::exists(path / "film_times.csv", ignored) && fs::exists(path / "run.json", ignored))
-        throw UserError(fmt::format(
+    if (!is_folder(path)) return {path};
+    if (is_there(path / "film_times.csv") && is_there(path / "run.json"))
+        throw UserError(
             "{}: is the folder of a film alone; give the files, or the run, that it was drawn from{}",
-            path.string(), drawn_in(path)));
+            path.string(), drawn_in(path));
     return without_passed_over(files_in(path));
 }
 
 }  // namespace
 
 bool is_foreign(const fs::path& path) {
-    std::error_code ignored;
     if (is_pattern(path)) return true;
-    if (!fs::is_directory(path, ignored)) return fs::exists(path, ignored) && raw_format_of(path) != nullptr;
-    if (fs::exists(path / "scene.toml", ignored)) return false;
+    if (!is_folder(path)) return is_there(path) && raw_format_of(path) != nullptr;
+    if (is_there(path / "scene.toml")) return false;
     for (const fs::path& file : files_in(path))
         if (!is_passed_over(file) && raw_format_of(file) != nullptr) return true;
     return false;
 }
 
 void ForeignArchive::choose_files() {
-    std::error_code ignored;
-    const bool many = is_pattern(path_) || fs::is_directory(path_, ignored);
+    const bool many = is_pattern(path_) || is_folder(path_);
     if (many) {
         choose_from(files_named(path_.string()));
     } else {
@@ -153,10 +151,9 @@ void ForeignArchive::find_walls() {
 // The files that a series has by now: all of its group that lie where the path says.
 std::vector<fs::path> ForeignArchive::files_now(const std::vector<fs::path>& known) const {
     if (alone_) return known;
-    std::error_code ignored;
-    const bool many = is_pattern(path_) || fs::is_directory(path_, ignored);
+    const bool many = is_pattern(path_) || is_folder(path_);
     for (FileGroup& group : many ? grouped(files_named(path_.string())) : std::vector{series_of(path_)}) {
-        if (std::find(group.files.begin(), group.files.end(), known.front()) == group.files.end()) continue;
+        if (!contains(group.files, known.front())) continue;
         const bool more = group.files.size() > known.size();
         return more && !is_pattern(path_) && are_different_runs(group) ? known : std::move(group.files);
     }
@@ -202,11 +199,10 @@ void ForeignArchive::choose_from(const std::vector<fs::path>& files) {
         if (holds == Holds::walls) walls.push_back(&group);
     }
     if (chosen == nullptr)
-        throw UserError(fmt::format("{}: no file there holds grains that can be read; {} were looked at",
-                                    path_.string(), files.size()));
+        throw UserError("{}: no file there holds grains that can be read; {} were looked at", path_.string(),
+                        files.size());
     for (const FileGroup& group : grouped(files))
-        if (std::find(group.files.begin(), group.files.end(), chosen->files.front()) != group.files.end())
-            alone_ = group.files.size() > chosen->files.size();
+        if (contains(group.files, chosen->files.front())) alone_ = group.files.size() > chosen->files.size();
     grains_ = std::make_unique<RawSeries>(chosen->files);
     for (const FileGroup* other : others)
         if (!share_files(*chosen, *other))
@@ -240,15 +236,12 @@ void ForeignArchive::add_companions(const fs::path& file) {
     if (grains_->facts().program.find("Mercury") == std::string::npos &&
         grains_->facts().format.find("Mercury") == std::string::npos)
         return;
-    std::error_code ignored;
     fs::path other = file;
     other.replace_extension(".fstat");
-    if (other != file && options_.contacts.empty() && fs::is_regular_file(other, ignored) &&
-        raw_format_of(other) != nullptr)
+    if (other != file && options_.contacts.empty() && is_plain(other) && raw_format_of(other) != nullptr)
         contacts_ = std::make_unique<RawSeries>(std::vector<fs::path>{other});
     other.replace_extension(".restart");
-    if (other != file && options_.walls.empty() && fs::is_regular_file(other, ignored) &&
-        what_holds(other) != Holds::nothing)
+    if (other != file && options_.walls.empty() && is_plain(other) && what_holds(other) != Holds::nothing)
         wall_files_.push_back({other});
 }
 

@@ -88,9 +88,9 @@ void ForeignArchive::survey() {
         // A dump may have contacts now and grains later; a table has the same columns in all frames.
         if (contacts && grains_->facts().format.starts_with("table"))
             throw UserError(
-                fmt::format("{}: holds contacts and no grains; give the file of the grains, and name "
-                            "this one by --contacts",
-                            path_.string()));
+                "{}: holds contacts and no grains; give the file of the grains, and name "
+                "this one by --contacts",
+                path_.string());
         news_.push_back(contacts
                             ? fmt::format("{}: has contacts and no grains; open the file of the grains, and "
                                           "name this one by --contacts",

@@ -33,8 +33,8 @@ std::vector<std::size_t> parts_of(const TriangleMesh& mesh) {
     using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
     std::map<Cell, std::size_t> known;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        const Vec3 at = (mesh.vertices[i] - low) / grain;
-        const Cell cell{std::llround(at.x()), std::llround(at.y()), std::llround(at.z())};
+        const Vec3 scaled = (mesh.vertices[i] - low) / grain;
+        const Cell cell{std::llround(scaled.x()), std::llround(scaled.y()), std::llround(scaled.z())};
         const auto [found, is_new] = known.emplace(cell, i);
         if (!is_new) parent[root(i)] = root(found->second);
     }
@@ -55,8 +55,7 @@ std::vector<Vec3> corners_of(const TriangleMesh& mesh, const std::vector<std::si
                              double unit) {
     std::vector<Vec3> corners;
     for (const std::size_t t : triangles)
-        for (const std::int32_t vertex : mesh.triangles[t])
-            corners.push_back(unit * mesh.vertices[static_cast<std::size_t>(vertex)]);
+        for (const std::int32_t vertex : mesh.triangles[t]) corners.push_back(unit * mesh.vertices[vertex]);
     return corners;
 }
 
@@ -92,9 +91,9 @@ MovingWall follow(const std::vector<WallMoment>& moments, std::size_t wall,
     const double still = 1e-5 * (high - low).norm(), rigid = 1e-3 * (high - low).norm();
     for (const WallMoment& moment : moments) {
         BodyPose pose = moving.poses.empty() ? BodyPose() : moving.poses.back();
-        const bool there = wall < moment.walls.size() &&
-                           moment.walls[wall].mesh.triangles.size() == first.mesh.triangles.size();
-        if (there) {
+        const bool same_shape = wall < moment.walls.size() &&
+                                moment.walls[wall].mesh.triangles.size() == first.mesh.triangles.size();
+        if (same_shape) {
             const std::vector<Vec3> now = corners_of(moment.walls[wall].mesh, triangles, unit);
             double farthest = 0;
             for (std::size_t i = 0; i < now.size(); ++i)
@@ -110,7 +109,7 @@ MovingWall follow(const std::vector<WallMoment>& moments, std::size_t wall,
             if (moment.walls[wall].cells.rows == first.mesh.triangles.size())
                 moving.cells.push_back(rows_of(moment.walls[wall].cells, triangles));
         }
-        changes = changes || !there;
+        changes = changes || !same_shape;
         moving.poses.push_back(pose);
     }
     if (moving.cells.size() != moments.size()) moving.cells.clear();
@@ -124,10 +123,10 @@ void check_corners(const std::vector<WallMoment>& moments, double unit, const st
             for (const Vec3& corner : wall.mesh.vertices)
                 if (!(corner.cwiseAbs().maxCoeff() * unit <= kFarthestPlace))
                     throw UserError(
-                        fmt::format("{}: a wall has a corner at ({:.3g}, {:.3g}, {:.3g}) m, where no wall "
-                                    "is; is the file "
-                                    "damaged, or is its unit another (--walls-scale)?",
-                                    name, unit * corner.x(), unit * corner.y(), unit * corner.z()));
+                        "{}: a wall has a corner at ({:.3g}, {:.3g}, {:.3g}) m, where no wall "
+                        "is; is the file "
+                        "damaged, or is its unit another (--walls-scale)?",
+                        name, unit * corner.x(), unit * corner.y(), unit * corner.z());
 }
 
 }  // namespace
@@ -307,8 +306,8 @@ void ForeignArchive::match_walls() {
 
 const RawTable* ForeignArchive::wall_cells(std::size_t index, std::size_t wall) const {
     const std::vector<RawTable>& cells = walls_.at(wall).cells;
-    const std::size_t at = wall_at_.at(index).at(wall);
-    return at < cells.size() ? &cells[at] : nullptr;
+    const std::size_t place = wall_at_.at(index).at(wall);
+    return place < cells.size() ? &cells[place] : nullptr;
 }
 
 }  // namespace grainreel

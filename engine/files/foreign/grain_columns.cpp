@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/names.hpp"
@@ -22,11 +23,9 @@ UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const
     if (!name.empty()) {
         const std::optional<UnitSystem> known = unit_system(name);
         if (!known && !options.units.empty())
-            throw UserError(
-                fmt::format("--units {}: no such units; there are {}", name, fmt::join(unit_names(), ", ")));
+            throw UserError("--units {}: no such units; there are {}", name, fmt::join(unit_names(), ", "));
         if (!known)
-            throw UserError(
-                fmt::format("{}: has units '{}', which are not known; name others by --units", file, name));
+            throw UserError("{}: has units '{}', which are not known; name others by --units", file, name);
         system = *known;
     }
     if (options.units.empty() && facts.length_unit) system.length = *facts.length_unit;
@@ -38,10 +37,10 @@ UnitSystem units_for(const RawFacts& facts, const ReadingOptions& options, const
 void refuse_contacts(const RawTable& table, const std::string& file) {
     const std::optional<Partners> partners = partners_in(table);
     if (!partners) return;
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: holds contacts, of {} and {}, and no grains; give the file of the grains, and name "
         "this one by --contacts",
-        file, excerpt(table.columns[partners->first].name), excerpt(table.columns[partners->second].name)));
+        file, excerpt(table.columns[partners->first].name), excerpt(table.columns[partners->second].name));
 }
 
 }  // namespace
@@ -58,9 +57,7 @@ void TypeList::add(const std::string& word) {
 }
 
 std::optional<std::size_t> TypeList::place(const std::string& word) const {
-    const auto found = std::find(words_.begin(), words_.end(), word);
-    if (found == words_.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - words_.begin());
+    return place_in(words_, word);
 }
 
 std::string type_word(const RawColumn& column, double value) {
@@ -110,9 +107,9 @@ void GrainMeaning::refuse_words(const RawTable& table) const {
     for (const Column& column : columns)
         if (column && !table.columns[*column].words.empty())
             throw UserError(
-                fmt::format("{}: column {} holds words such as \"{}\", where numbers are needed; name "
-                            "another column by --columns",
-                            file_, table.columns[*column].name, table.columns[*column].words.front()));
+                "{}: column {} holds words such as \"{}\", where numbers are needed; name "
+                "another column by --columns",
+                file_, table.columns[*column].name, table.columns[*column].words.front());
     if (!id_) return;
     // Names of grains may be words. A word among numbers is damage, and would give all grains other ids.
     const std::vector<std::string>& words = table.columns[*id_].words;
@@ -120,9 +117,9 @@ void GrainMeaning::refuse_words(const RawTable& table) const {
     const auto word = std::find_if_not(words.begin(), words.end(), is_number);
     if (word != words.end() && std::any_of(words.begin(), words.end(), is_number))
         throw UserError(
-            fmt::format("{}: column {} holds the word \"{}\" among numbers; name another column "
-                        "of ids by --columns id=NAME, or write its number",
-                        file_, table.columns[*id_].name, excerpt(*word)));
+            "{}: column {} holds the word \"{}\" among numbers; name another column "
+            "of ids by --columns id=NAME, or write its number",
+            file_, table.columns[*id_].name, excerpt(*word));
 }
 
 // Places of LAMMPS' columns xu, yu and zu are moved back into the periodic box, where x, y and z would have
@@ -189,9 +186,8 @@ void GrainMeaning::find_places(const RawTable& table) {
     flat_ = place_[0] && place_[1] && !place_[2];
     if (!place_[0] || !place_[1]) refuse_contacts(table, file_);
     if (!place_[0] || !place_[1])
-        throw UserError(
-            fmt::format("{}: has no columns of places; name them by --columns x=...,y=...,z=...; it has {}",
-                        file_, names_in(table)));
+        throw UserError("{}: has no columns of places; name them by --columns x=...,y=...,z=...; it has {}",
+                        file_, names_in(table));
     place_unit_ = unit_in_name(place_[0], Dimension::length).value_or(units_.length);
 }
 
@@ -204,10 +200,10 @@ void GrainMeaning::check_flat(const RawFrame& frame) const {
                       frame.box->edges[2].norm() <= 1.0001 * std::max(1.0, 0.1 * frame.box->edges[0].norm());
     if (!thin)
         throw UserError(
-            fmt::format("{}: has no column z, and its box is not that of discs in a plane; name the column "
-                        "by --columns z=...; "
-                        "it has {}",
-                        file_, names_in(frame.grains)));
+            "{}: has no column z, and its box is not that of discs in a plane; name the column "
+            "by --columns z=...; "
+            "it has {}",
+            file_, names_in(frame.grains));
 }
 
 bool GrainMeaning::is_radius_said() const {
@@ -227,10 +223,10 @@ void GrainMeaning::find_radius(const RawTable& table) {
     if (!radius_) refuse_contacts(table, file_);
     if (!radius_)
         throw UserError(
-            fmt::format("{}: says no radius of its grains; give one by --radius 2mm (or 1=2mm,2=5mm by "
-                        "type), or name the column by "
-                        "--columns radius=NAME; it has {}",
-                        file_, names_in(table)));
+            "{}: says no radius of its grains; give one by --radius 2mm (or 1=2mm,2=5mm by "
+            "type), or name the column by "
+            "--columns radius=NAME; it has {}",
+            file_, names_in(table));
     radius_unit_ = unit_in_name(radius_, Dimension::length).value_or(place_unit_);
 }
 
@@ -239,8 +235,8 @@ void GrainMeaning::check_columns(const RawTable& table, const std::string& place
     if (table.rows == 0) return;
     for (std::size_t k = 0; k < names_.size(); ++k)
         if (k >= table.columns.size() || table.columns[k].name != names_[k])
-            throw UserError(fmt::format("{}: has other columns than the first frame; {} is not at its place",
-                                        place, names_[k]));
+            throw UserError("{}: has other columns than the first frame; {} is not at its place", place,
+                            names_[k]);
 }
 
 void GrainMeaning::add_types(const RawFrame& raw, TypeList& types) const {
@@ -254,14 +250,14 @@ void GrainMeaning::add_types(const RawFrame& raw, TypeList& types) const {
     constexpr std::size_t most = 1000;
     for (std::size_t row = 0; row < raw.grains.rows; ++row) {
         const double number = value(raw.grains, type_, row);
-        if (std::find(known.begin(), known.end(), number) != known.end()) continue;
+        if (contains(known, number)) continue;
         known.push_back(number);
         types.add(type_of(raw, row));
         if (types.words().size() > most)
             throw UserError(
-                fmt::format("{}: column {} has more than {} values, so it holds no types; name the column by "
-                            "--columns type=NAME",
-                            file_, raw.grains.columns[*type_].name, most));
+                "{}: column {} has more than {} values, so it holds no types; name the column by "
+                "--columns type=NAME",
+                file_, raw.grains.columns[*type_].name, most);
     }
 }
 

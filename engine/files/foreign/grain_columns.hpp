@@ -3,13 +3,10 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/base/error.hpp"
 #include "engine/files/foreign/gaps.hpp"
 #include "engine/files/foreign/grain_shapes.hpp"
 #include "engine/files/foreign/names.hpp"

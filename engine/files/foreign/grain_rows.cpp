@@ -1,5 +1,4 @@
 // Reads the grains and contacts of a frame by the meaning of its columns, which grain_columns.cpp finds.
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -28,7 +27,7 @@ Vec3 GrainMeaning::place_of(const RawFrame& raw, std::size_t row) const {
         any_scaled = any_scaled || scaled_[axis];
     }
     if (any_scaled) {
-        if (!raw.box) throw UserError(fmt::format("{}: has places as shares of a box, but no box", file_));
+        if (!raw.box) throw UserError("{}: has places as shares of a box, but no box", file_);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<Eigen::Index>(axis);
             if (!scaled_[axis]) continue;
@@ -54,19 +53,19 @@ double GrainMeaning::radius_of(const RawFrame& raw, std::size_t row, const std::
     if (radius_) {
         const double number = value(raw.grains, radius_, row) * radius_unit_ * (is_diameter_ ? 0.5 : 1);
         if (number > 0 && number <= kLargestRadius) return number;
-        throw UserError(fmt::format(
+        throw UserError(
             "{}: a grain in row {} has {} {}; give the radius by --radius 2mm, or name another column by "
             "--columns "
             "radius=NAME",
-            place, row + 1, is_diameter_ ? "a diameter of" : "a radius of", value(raw.grains, radius_, row)));
+            place, row + 1, is_diameter_ ? "a diameter of" : "a radius of", value(raw.grains, radius_, row));
     }
     if (!options_.radius_of_type.empty()) {
         const std::string word = type_of(raw, row);
-        const auto found = options_.radius_of_type.find(word);
-        if (found != options_.radius_of_type.end()) return found->second;
+        const auto radius = options_.radius_of_type.find(word);
+        if (radius != options_.radius_of_type.end()) return radius->second;
         if (!options_.radius)
-            throw UserError(fmt::format(
-                "{}: a grain is of type {}, for which --radius says nothing; add {}=2mm", place, word, word));
+            throw UserError("{}: a grain is of type {}, for which --radius says nothing; add {}=2mm", place,
+                            word, word);
     }
     return *options_.radius;
 }
@@ -76,9 +75,9 @@ std::string GrainMeaning::type_of(const RawFrame& raw, std::size_t row) const {
     const RawColumn& column = raw.grains.columns[*type_];
     if (!std::isfinite(column.values[row]))
         throw UserError(
-            fmt::format("{}: a grain in row {} has no type: its {} is {}; write it, or name "
-                        "another column by --columns type=NAME",
-                        file_, row + 1, column.name, column.values[row]));
+            "{}: a grain in row {} has no type: its {} is {}; write it, or name "
+            "another column by --columns type=NAME",
+            file_, row + 1, column.name, column.values[row]);
     return type_word(raw.grains.columns[*type_], value(raw.grains, type_, row));
 }
 
@@ -107,13 +106,13 @@ void GrainMeaning::add_shape(const RawTable& table, std::size_t row, const std::
     const GrainShape shape = shapes_.shape(table, row, place_unit_);
     if (!is_possible(shape) || shape.half.maxCoeff() > kLargestRadius)
         throw UserError(
-            fmt::format("{}: the grain in row {} has the half lengths {:g}, {:g}, {:g} m and the powers {:g} "
-                        "and {:g}, which no "
-                        "grain has (lengths are above 0, powers from 2 to {:g}); mend the row, or let "
-                        "--radius draw all grains as "
-                        "spheres",
-                        place, row + 1, shape.half.x(), shape.half.y(), shape.half.z(), shape.along,
-                        shape.around, kMostBlockiness));
+            "{}: the grain in row {} has the half lengths {:g}, {:g}, {:g} m and the powers {:g} "
+            "and {:g}, which no "
+            "grain has (lengths are above 0, powers from 2 to {:g}); mend the row, or let "
+            "--radius draw all grains as "
+            "spheres",
+            place, row + 1, shape.half.x(), shape.half.y(), shape.half.z(), shape.along, shape.around,
+            kMostBlockiness);
     state.shape.push_back(shape);
     state.radius.push_back(radius_by_volume(shape));
 }
@@ -123,12 +122,12 @@ void GrainMeaning::add_grain(const RawFrame& raw, std::size_t row, const std::st
     const RawTable& table = raw.grains;
     const std::int32_t id = state.id.back();
     const Vec3 where = place_of(raw, row);
-    if (!where.allFinite()) throw UserError(fmt::format("{}: grain {} has no finite place", place, id));
+    if (!where.allFinite()) throw UserError("{}: grain {} has no finite place", place, id);
     if (where.cwiseAbs().maxCoeff() > kFarthestPlace)
         throw UserError(
-            fmt::format("{}: grain {} is at ({:.3g}, {:.3g}, {:.3g}) m, where no bed reaches; is "
-                        "the file damaged, or are its units others (--units)?",
-                        place, id, where.x(), where.y(), where.z()));
+            "{}: grain {} is at ({:.3g}, {:.3g}, {:.3g}) m, where no bed reaches; is "
+            "the file damaged, or are its units others (--units)?",
+            place, id, where.x(), where.y(), where.z());
     if (has_shapes())
         add_shape(table, row, place, state);
     else
@@ -167,8 +166,8 @@ State GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
     for (std::size_t row = 0; row < table.rows; ++row) {
         const double number = id_ ? value(table, id_, row) : static_cast<double>(row) + facts_.first_row_id;
         if (!(number >= 0 && number <= kMostId && number == std::floor(number)))
-            throw UserError(fmt::format("{}: row {} has the id {}, which is no whole number from 0 to {:.0f}",
-                                        place, row + 1, number, kMostId));
+            throw UserError("{}: row {} has the id {}, which is no whole number from 0 to {:.0f}", place,
+                            row + 1, number, kMostId);
         ids[row] = static_cast<std::int32_t>(number);
     }
     const std::vector<std::size_t> order = rows_by_id(ids);
@@ -177,8 +176,7 @@ State GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
     for (std::size_t i = 0; i < order.size(); ++i) {
         const std::size_t row = order[i];
         if (i > 0 && ids[order[i - 1]] == ids[row])
-            throw UserError(
-                fmt::format("{}: grain {} comes twice; a grain has one row in each frame", place, ids[row]));
+            throw UserError("{}: grain {} comes twice; a grain has one row in each frame", place, ids[row]);
         // Making the word of a type takes long, so that it is made once.
         const double type = type_ ? value(table, type_, row) : 0;
         auto species = std::find_if(known.begin(), known.end(),
@@ -186,10 +184,10 @@ State GrainMeaning::frame(const RawFrame& raw, const TypeList& types, const std:
         if (species == known.end()) {
             const std::optional<std::size_t> named = types.place(type_of(raw, row));
             if (!named)
-                throw UserError(fmt::format(
+                throw UserError(
                     "{}: grain {} is of type {}, which no frame that was looked at first had; name "
                     "all types by --species",
-                    place, ids[row], type_of(raw, row)));
+                    place, ids[row], type_of(raw, row));
             known.emplace_back(type, *named);
             species = std::prev(known.end());
         }
@@ -229,20 +227,23 @@ std::optional<std::vector<Link>> touches_of(const RawFrame& raw, const ReadingOp
     const auto normal = column_for("force", table, options, file);
     const auto fx = column_for("fx", table, options, file), fy = column_for("fy", table, options, file),
                fz = column_for("fz", table, options, file);
-    const auto at = [&](std::size_t column, std::size_t row) { return table.columns[column].values[row]; };
+    const auto value_at = [&](std::size_t column, std::size_t row) {
+        return table.columns[column].values[row];
+    };
     std::vector<Link> touches;
     for (std::size_t row = 0; row < table.rows; ++row) {
         Link touch{};
-        const double a = at(*first, row), b = at(*second, row);
+        const double a = value_at(*first, row), b = value_at(*second, row);
         if (!(std::abs(a) <= kMostId && std::abs(b) <= kMostId)) continue;
         touch.first = static_cast<std::int32_t>(a);
         touch.second = static_cast<std::int32_t>(b);
         if (touch.first < 0) std::swap(touch.first, touch.second);
         if (touch.first < 0) continue;  // a contact of two walls
         if (normal)
-            touch.force = std::abs(at(*normal, row)) * units.force();
+            touch.force = std::abs(value_at(*normal, row)) * units.force();
         else if (fx && fy && fz)
-            touch.force = Vec3(at(*fx, row), at(*fy, row), at(*fz, row)).norm() * units.force();
+            touch.force =
+                Vec3(value_at(*fx, row), value_at(*fy, row), value_at(*fz, row)).norm() * units.force();
         if (std::isfinite(touch.force)) touches.push_back(touch);
     }
     return touches;

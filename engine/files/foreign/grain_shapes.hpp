@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/state/grain_shape.hpp"
 

@@ -1,6 +1,5 @@
 #include "engine/files/foreign/names.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
 #include <utility>
@@ -103,9 +102,9 @@ std::string lower(std::string text) {
 
 // The name without its unit: "Radius" for "Radius [mm]".
 std::string without_unit(const std::string& name) {
-    const std::size_t at = name.find_first_of("[(");
-    if (at == std::string::npos || at == 0) return name;
-    std::string bare = name.substr(0, at);
+    const std::size_t bracket = name.find_first_of("[(");
+    if (bracket == std::string::npos || bracket == 0) return name;
+    std::string bare = name.substr(0, bracket);
     while (!bare.empty() && bare.back() == ' ') bare.pop_back();
     return bare.empty() ? name : bare;
 }
@@ -169,8 +168,8 @@ std::optional<std::size_t> column_for(const std::string& meaning, const RawTable
         for (std::size_t i = 0; i < table.columns.size(); ++i)
             if (table.columns[i].name == said->second) return i;
         if (const auto place = place_of(lower(said->second), table)) return place;
-        throw UserError(fmt::format("--columns {}={}: {} has no such column; it has {}", meaning,
-                                    said->second, file, names_in(table)));
+        throw UserError("--columns {}={}: {} has no such column; it has {}", meaning, said->second, file,
+                        names_in(table));
     }
     for (const std::string& name : names_of(meaning))
         if (const auto place = place_of(name, table)) return place;

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 
 // All formats in the order in which they are asked. NAME stands for a function RawFormat NAME_format(), which
 // is in this folder or in a folder below.

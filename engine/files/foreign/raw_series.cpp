@@ -9,7 +9,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/file_groups.hpp"
 
 namespace grainreel {
@@ -28,8 +28,8 @@ void append_rows(RawTable& to, RawTable&& more, const std::string& file) {
     for (RawColumn& column : to.columns) {
         const RawColumn* other = more.find(column.name);
         if (other == nullptr || other->words != column.words)
-            throw UserError(fmt::format("{}: has other columns than the files beside it ({} is missing)",
-                                        file, column.name));
+            throw UserError("{}: has other columns than the files beside it ({} is missing)", file,
+                            column.name);
         column.values.insert(column.values.end(), other->values.begin(), other->values.end());
     }
     to.rows += more.rows;
@@ -40,8 +40,7 @@ void append_rows(RawTable& to, RawTable&& more, const std::string& file) {
 RawSeries::RawSeries(std::vector<fs::path> files) : files_(std::move(files)) {
     GRAINREEL_CHECK(!files_.empty());
     format_ = raw_format_of(files_.front());
-    if (format_ == nullptr)
-        throw UserError(fmt::format("{}: is in no format that is read", files_.front().string()));
+    if (format_ == nullptr) throw UserError("{}: is in no format that is read", files_.front().string());
     for (const fs::path& file : files_) {
         looked_.push_back(look(file));
         RawFile& one = *open_.back().second;
@@ -93,10 +92,10 @@ bool RawSeries::grow(std::vector<fs::path> files) {
                (!one.time || !now.time || one.time == now.time);
     };
     if (std::mismatch(before.begin(), whole, moments_.begin(), moments_.end(), same).first != whole)
-        throw RunError(fmt::format(
+        throw RunError(
             "{}: has {}, and the first of them are not the {} that were read before; it was truncated or "
             "replaced, or its run went on from an earlier moment",
-            files_.front().string(), counted(moments_.size(), "frame"), whole - before.begin()));
+            files_.front().string(), counted(moments_.size(), "frame"), whole - before.begin());
     return true;
 }
 
@@ -127,9 +126,9 @@ RawFile& RawSeries::opened(const fs::path& file) const {
     }
     const RawFormat* format = file == files_.front() ? format_ : raw_format_of(file);
     if (format == nullptr || std::string(format->name) != format_->name)
-        throw UserError(fmt::format("{}: is {}, but {} is {}; files of one run have one format",
-                                    file.string(), format ? format->about : "in no format that is read",
-                                    files_.front().string(), format_->about));
+        throw UserError("{}: is {}, but {} is {}; files of one run have one format", file.string(),
+                        format ? format->about : "in no format that is read", files_.front().string(),
+                        format_->about);
     std::erase_if(open_, [](const auto& one) { return one.second->moments().size() < 2; });
     if (open_.size() == most_open) open_.erase(open_.begin());
     open_.emplace_back(file, format->open(file));
@@ -191,9 +190,9 @@ bool RawSeries::are_parts(const PlacedMoment& one, const PlacedMoment& other) co
 // grains, read() takes the later one, and this says so.
 void RawSeries::tell_of_equal_files() {
     const auto several = [](const Parts& parts) { return parts.size() > 1; };
-    const auto found = std::find_if(parts_.begin(), parts_.end(), several);
-    if (found == parts_.end()) return;
-    const PlacedMoment &one = found->front(), &other = found->back();
+    const auto part = std::find_if(parts_.begin(), parts_.end(), several);
+    if (part == parts_.end()) return;
+    const PlacedMoment &one = part->front(), &other = part->back();
     try {
         const RawTable before = opened(files_[one.file]).read(one.frame).grains;
         const RawTable after = opened(files_[other.file]).read(other.frame).grains;

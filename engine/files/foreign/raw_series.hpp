@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/file_state.hpp"
+#include "engine/base/system/file_state.hpp"
 #include "engine/files/foreign/moment_order.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/frames/state_archive.hpp"

@@ -32,13 +32,13 @@ FileStart head_of(const fs::path& path) {
     head.path = path;
     if (is_pattern(path)) return head;
     std::error_code error;
-    head.folder = fs::is_directory(path, error);
+    head.folder = is_folder(path);
     if (head.folder) return head;
     if (const std::string other = other_than_file(path, true); !other.empty())
-        throw UserError(fmt::format("{}: is {}, from which no frames are read; give a file or a folder",
-                                    path.string(), other));
+        throw UserError("{}: is {}, from which no frames are read; give a file or a folder", path.string(),
+                        other);
     std::ifstream in = read_plain(path);
-    if (!in) throw UserError(fmt::format("{}: cannot be opened; is there such a file?", path.string()));
+    if (!in) throw UserError("{}: cannot be opened; is there such a file?", path.string());
     head.size = fs::file_size(path, error);
     head.bytes.resize(std::min<std::uintmax_t>(error ? 0 : head.size, kHeadBytes));
     in.read(head.bytes.data(), static_cast<std::streamsize>(head.bytes.size()));
@@ -50,8 +50,8 @@ FileStart head_of(const fs::path& path) {
     std::vector<std::string> known;
     for (const auto& reader : own_readers()) known.emplace_back(reader->about());
     for (const ReadFormat& reader : frame_readers()) known.emplace_back(reader.about);
-    throw UserError(fmt::format("{}: holds no frames that can be read; give {}", path.string(),
-                                fmt::join(known, ", or ")));
+    throw UserError("{}: holds no frames that can be read; give {}", path.string(),
+                    fmt::join(known, ", or "));
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ std::unique_ptr<StateArchive> open_by_own_reader(const fs::path& path, const Ope
 
 std::unique_ptr<StateArchive> open_frames(const fs::path& path, const OpenRequest& request) {
     if (std::unique_ptr<StateArchive> own = open_by_own_reader(path, request)) {
-        if (own->moments().empty()) throw UserError(fmt::format("{}: holds no frame", path.string()));
+        if (own->moments().empty()) throw UserError("{}: holds no frame", path.string());
         return own;
     }
     if (request.format.empty()) {
@@ -102,7 +102,7 @@ std::unique_ptr<StateArchive> open_frames(const fs::path& path, const OpenReques
     }
     for (const ReadFormat& reader : frame_readers())
         if (request.format == reader.name) return reader.open(path, request);
-    throw UserError(fmt::format("{}: there is no reader called {}", path.string(), request.format));
+    throw UserError("{}: there is no reader called {}", path.string(), request.format);
 }
 
 }  // namespace grainreel

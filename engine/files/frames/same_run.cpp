@@ -210,13 +210,12 @@ void check_rows(double step_length, const std::vector<double>& steps, const std:
     for (std::size_t row = 0; row < steps.size(); ++row) {
         const std::string line = fmt::format("{}:{}: ", measures, row + 2);
         if (row > 0 && !(steps[row] > steps[row - 1]))
-            throw UserError(
-                fmt::format("{}is of step {}, but the row before is of step {}; the file was altered", line,
-                            steps[row], steps[row - 1]));
+            throw UserError("{}is of step {}, but the row before is of step {}; the file was altered", line,
+                            steps[row], steps[row - 1]);
         if (std::abs(times[row] - steps[row] * step_length) > same_time * std::abs(times[row]))
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}has {:.6g} s at step {}, but a step of this run is {:.6g} s; the file was altered", line,
-                times[row], steps[row], step_length));
+                times[row], steps[row], step_length);
     }
 }
 

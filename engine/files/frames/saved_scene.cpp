@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <optional>
-#include <system_error>
 
 #include "engine/base/clock.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/plan/times.hpp"
@@ -21,22 +20,19 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail_without_folder(const fs::path& path) {
-    std::error_code error;
-    if (!fs::exists(path, error))
-        throw UserError(fmt::format("{}: no such folder; give the folder of a run", path.string()));
+    if (!is_there(path)) throw UserError("{}: no such folder; give the folder of a run", path.string());
     const std::string other = other_than_file(path, true);
     const bool scene = other.empty() && path.extension() == ".toml";
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: is {}; give the folder of a run{}", path.string(), other.empty() ? "a file" : other,
         scene ? fmt::format(", or run the scene: {} movie {}", program_call(), shell_word(path.string()))
-              : ""));
+              : "");
 }
 
 }  // namespace
 
 fs::path folder_of_run(const fs::path& folder) {
-    std::error_code error;
-    if (!fs::is_directory(folder, error)) fail_without_folder(folder);
+    if (!is_folder(folder)) fail_without_folder(folder);
     const fs::path normal = folder.lexically_normal();
     if (normal.has_filename() && normal.filename() != "." && normal.filename() != "..") return normal;
     return normal.has_filename() || !normal.has_parent_path() ? fs::canonical(folder) : normal.parent_path();
@@ -44,11 +40,9 @@ fs::path folder_of_run(const fs::path& folder) {
 
 fs::path file_of_run(const fs::path& folder, const char* name, const char* advice) {
     if (const std::string other = other_than_file(folder / name, true); !other.empty())
-        throw UserError(
-            fmt::format("{}: is {}, not a file of a run; {}", (folder / name).string(), other, advice));
-    std::error_code error;
-    if (fs::exists(folder / name, error)) return folder / name;
-    throw UserError(fmt::format("{}: has no {}; {}", folder.string(), name, advice));
+        throw UserError("{}: is {}, not a file of a run; {}", (folder / name).string(), other, advice);
+    if (is_there(folder / name)) return folder / name;
+    throw UserError("{}: has no {}; {}", folder.string(), name, advice);
 }
 
 Scene plain_scene_of_run(const fs::path& folder) {
@@ -61,8 +55,8 @@ Scene plain_scene_of_run(const fs::path& folder) {
 CheckpointScene scene_in_checkpoint(const fs::path& checkpoint) {
     const std::optional<CheckpointLabel> label = label_of_checkpoint(checkpoint);
     if (!label)
-        throw UserError(fmt::format("{}: is no checkpoint of this version of grainreel, or it is damaged",
-                                    checkpoint.string()));
+        throw UserError("{}: is no checkpoint of this version of grainreel, or it is damaged",
+                        checkpoint.string());
     const std::string name = checkpoint.string();
     return {{label->scene, checkpoint},
             {{"start.method=file", name},

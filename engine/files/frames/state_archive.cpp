@@ -1,6 +1,5 @@
 #include "engine/files/frames/state_archive.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <numeric>
 
@@ -57,11 +56,10 @@ std::vector<std::size_t> StateArchive::between(std::optional<double> from, std::
 void StateArchive::check_time(const char* option, double time, double last, double slack) const {
     const double first = moments().front().time;
     if (std::isnan(first) || std::isnan(last))
-        throw UserError(
-            fmt::format("{}: the time of {} is not known; leave it out", option, path().string()));
+        throw UserError("{}: the time of {} is not known; leave it out", option, path().string());
     if (!(time >= first - slack && time <= last + slack))
-        throw UserError(fmt::format("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s",
-                                    option, time, first, last));
+        throw UserError("{}: {:.6g} s is outside the run, which goes from {:.6g} to {:.6g} s", option, time,
+                        first, last);
 }
 
 State StateArchive::first_whole() const {

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/plain_file.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/files/frames/stored_world.hpp"
 #include "engine/state/contact.hpp"
@@ -150,8 +151,7 @@ struct ReadingOptions {
 
 // Whether a path is a pattern (* ? [) and no file has that name.
 inline bool is_pattern(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return path.string().find_first_of("*?[") != std::string::npos && !std::filesystem::exists(path, ignored);
+    return path.string().find_first_of("*?[") != std::string::npos && !is_there(path);
 }
 
 // What lies under a path, and how its content begins.

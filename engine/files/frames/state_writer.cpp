@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/fields_file.hpp"
 
 // All formats. NAME stands for a function WriteFormat NAME_format() in engine/files/frames/writers.
@@ -33,7 +34,7 @@ std::unique_ptr<StateWriter> frame_writer(const std::string& format, const std::
         if (format == one.name) return one.make(path);
         known += fmt::format("\n  {:<12}  {}", one.name, one.about);
     }
-    throw UserError(fmt::format("'{}' is no format of frames. There are:{}", format, known));
+    throw UserError("'{}' is no format of frames. There are:{}", format, known);
 }
 
 }  // namespace grainreel
@@ -52,13 +53,13 @@ std::vector<std::size_t> chosen(const StateArchive& frames, const ExportChoice& 
     check("--from", choice.from);
     check("--until", choice.until);
     if (choice.from && choice.until && *choice.from > *choice.until)
-        throw UserError(fmt::format("--from: {:.6g} s is later than --until, {:.6g} s; exchange the two",
-                                    *choice.from, *choice.until));
+        throw UserError("--from: {:.6g} s is later than --until, {:.6g} s; exchange the two", *choice.from,
+                        *choice.until);
     if (choice.at) return {frames.nearest(*choice.at)};
     std::vector<std::size_t> all = frames.between(choice.from, choice.until, choice.every);
     if (all.empty())
-        throw UserError(fmt::format("{}: no frame lies there; they go from {:.6g} to {:.6g} s",
-                                    frames.path().string(), moments.front().time, moments.back().time));
+        throw UserError("{}: no frame lies there; they go from {:.6g} to {:.6g} s", frames.path().string(),
+                        moments.front().time, moments.back().time);
     return all;
 }
 
@@ -81,7 +82,7 @@ void add_fields(const StateArchive& frames, const std::vector<std::size_t>& want
 
 std::uintmax_t bytes_of(const fs::path& path) {
     std::error_code error;
-    if (fs::is_regular_file(path, error)) return fs::file_size(path, error);
+    if (is_plain(path)) return fs::file_size(path, error);
     std::uintmax_t bytes = 0;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path, error))
         if (entry.is_regular_file(error)) bytes += entry.file_size(error);
@@ -138,14 +139,10 @@ void write_all(const StateArchive& frames, const std::vector<std::size_t>& wante
 }  // namespace
 
 void check_free(const fs::path& path, bool replace) {
-    std::error_code error;
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, error))
-        throw UserError(
-            fmt::format("--out {}: there is no folder {}; make it first", path.string(), folder.string()));
-    if (fs::exists(path, error) && !replace)
-        throw UserError(fmt::format("--out {}: exists already; choose another name, or --force to replace it",
-                                    path.string()));
+    check_folder_around(path, "--out " + path.string());
+    if (is_there(path) && !replace)
+        throw UserError("--out {}: exists already; choose another name, or --force to replace it",
+                        path.string());
 }
 
 Exported export_frames(const StateArchive& frames, const std::string& format, const fs::path& path,
@@ -167,9 +164,9 @@ Exported export_frames(const StateArchive& frames, const std::string& format, co
         if (renamed == error_of_part.what()) throw;
         throw UserError(renamed);
     }
-    if (fs::is_directory(path, error)) fs::remove_all(path, error);
+    if (is_folder(path)) fs::remove_all(path, error);
     fs::rename(part.path(), path, error);
-    if (error) throw RunError(fmt::format("{}: cannot be made: {}", path.string(), error.message()));
+    if (error) throw RunError("{}: cannot be made: {}", path.string(), error.message());
     Exported made{path, static_cast<std::int64_t>(wanted.size()), bytes_of(path),
                   frames.moments()[wanted.front()].time};
     if (choice.at)
@@ -192,8 +189,7 @@ WorldCell box_of(const StoredWorld& world, const State& frame) {
     if (frame.size() == 0) high = Vec3::Ones();
     WorldCell box;
     box.origin = low;
-    for (int axis = 0; axis < 3; ++axis)
-        box.edges[static_cast<std::size_t>(axis)] = (high - low)[axis] * Vec3::Unit(axis);
+    for (int axis = 0; axis < 3; ++axis) box.edges[axis] = (high - low)[axis] * Vec3::Unit(axis);
     if (!world.cell) return box;
     for (std::size_t edge = 0; edge < 3; ++edge) {
         if (!world.cell->periodic[edge]) continue;
@@ -210,9 +206,9 @@ void refuse_unknown_motion(const fs::path& path, const State& frame) {
              {std::pair("velocity", &frame.velocity[i]), {"spin", &frame.spin[i]}})
             if (!motion->allFinite())
                 throw UserError(
-                    fmt::format("{}: the {} of grain {} is not known, and a run cannot start with it; take "
-                                "another moment by --at, or write its {} into the file",
-                                path.string(), what, frame.id[i], what));
+                    "{}: the {} of grain {} is not known, and a run cannot start with it; take "
+                    "another moment by --at, or write its {} into the file",
+                    path.string(), what, frame.id[i], what);
 }
 
 std::vector<std::string> news_of_rest(const fs::path& path, const StateSupply& supply) {

@@ -6,11 +6,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/base/numbers.hpp"
 #include "engine/base/triangle_mesh.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/files/file_facts.hpp"
@@ -23,7 +23,6 @@ struct Face;  // engine/state/container_faces.hpp; who makes, copies or changes 
 struct StateSupply;  // engine/files/frames/state_archive.hpp
 struct Scene;        // engine/scene/scene.hpp
 
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kGlassDensity = 2500;  // kg/m3; taken where the density is not known
 
 struct WorldSpecies {

@@ -1,6 +1,5 @@
 #include "engine/files/netcdf/hdf5_trial.hpp"
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -58,11 +57,11 @@ bool is_hdf5(const std::filesystem::path& file) {
 // HDF5 file format specification, II.A: the superblock tells where the file ends.
 void check_hdf5(const std::filesystem::path& file) {
     const std::string name = file.string(), head = superblock_of(file);
-    if (head.size() < superblock) throw UserError(fmt::format("{}: is cut off within its first bytes", name));
+    if (head.size() < superblock) throw UserError("{}: is cut off within its first bytes", name);
     const int version = static_cast<unsigned char>(head[8]);
     if (version > 3)
-        throw UserError(fmt::format("{}: byte 8: has the version {} of HDF5's superblock; 0 to 3 are read",
-                                    name, version));
+        throw UserError("{}: byte 8: has the version {} of HDF5's superblock; 0 to 3 are read", name,
+                        version);
     const int width = static_cast<unsigned char>(head[version < 2 ? 13 : 9]);
     if (width != 8) return;  // the library reports what is wrong with such a file
     const std::size_t place = version == 0 ? 40 : version == 1 ? 44 : 28;
@@ -71,7 +70,7 @@ void check_hdf5(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (!error && end > size)
-        throw UserError(fmt::format("{}: is cut off: it has {} bytes of {}; copy it again", name, size, end));
+        throw UserError("{}: is cut off: it has {} bytes of {}; copy it again", name, size, end);
 }
 
 void try_in_child(const std::filesystem::path& file, const std::function<void()>& read_all) {

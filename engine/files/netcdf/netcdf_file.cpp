@@ -1,10 +1,8 @@
 #include "engine/files/netcdf/netcdf_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <netcdf.h>
 #include <unistd.h>
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -42,8 +40,7 @@ void set_record_count(const std::filesystem::path& path, std::size_t records) {
 }
 
 void known(int status, const std::filesystem::path& path) {
-    if (status != NC_NOERR)
-        throw UserError(fmt::format("{}: cannot be read: {}", path.string(), nc_strerror(status)));
+    if (status != NC_NOERR) throw UserError("{}: cannot be read: {}", path.string(), nc_strerror(status));
 }
 
 }  // namespace
@@ -54,7 +51,7 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& path, NetcdfFormat fo
     int id = -1;
     std::size_t buffer = buffer_size;
     if (const int status = nc__create(path.c_str(), mode, 0, &buffer, &id); status != NC_NOERR) {
-        throw RunError(fmt::format("{}: cannot be written: {}", path.string(), nc_strerror(status)));
+        throw RunError("{}: cannot be written: {}", path.string(), nc_strerror(status));
     }
     NetcdfFile file(path, id, true);
     int old_mode = 0;
@@ -67,8 +64,7 @@ KeptRecords NetcdfFile::kept_of(const std::filesystem::path& path, std::size_t r
     std::error_code error;
     const std::uintmax_t end = header.begin + header.record * records;
     if ((records > 0 && end > std::filesystem::file_size(path, error)) || error)
-        throw UserError(
-            fmt::format("{}: was cut off; it lacks some of its first {} records", path.string(), records));
+        throw UserError("{}: was cut off; it lacks some of its first {} records", path.string(), records);
     return {records, end};
 }
 
@@ -79,17 +75,17 @@ void NetcdfFile::count_records(const std::filesystem::path& path, std::size_t re
 NetcdfFile NetcdfFile::append(const std::filesystem::path& path, std::size_t records) {
     const std::uintmax_t end = kept_of(path, records).bytes;
     if (const std::string other = other_than_file(path, false); !other.empty())
-        throw RunError(fmt::format("{}: cannot be written: it is {}", path.string(), other));
+        throw RunError("{}: cannot be written: it is {}", path.string(), other);
     std::error_code error;
     // The order matters. A program that is killed in between leaves records that are not counted, and a
     // reader can tell these from a file that was cut off.
     set_record_count(path, records);
     std::filesystem::resize_file(path, end, error);
-    if (error) throw RunError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
+    if (error) throw RunError("{}: cannot be written: {}", path.string(), error.message());
     int id = -1;
     std::size_t buffer = buffer_size;
     if (const int status = nc__open(path.c_str(), NC_WRITE, &buffer, &id); status != NC_NOERR)
-        throw RunError(fmt::format("{}: cannot be written: {}", path.string(), nc_strerror(status)));
+        throw RunError("{}: cannot be written: {}", path.string(), nc_strerror(status));
     NetcdfFile file(path, id, true);
     file.records_ = records;
     int old_mode = 0;
@@ -111,8 +107,8 @@ NetcdfFile NetcdfFile::open_any(const std::filesystem::path& path) {
     check_hdf5(path);
     int id = -1;
     if (const int status = nc_open(path.c_str(), NC_NOWRITE, &id); status != NC_NOERR)
-        throw UserError(fmt::format("{}: is HDF5, but the library of NetCDF cannot read it ({})",
-                                    path.string(), nc_strerror(status)));
+        throw UserError("{}: is HDF5, but the library of NetCDF cannot read it ({})", path.string(),
+                        nc_strerror(status));
     return NetcdfFile(path, id, false);
 }
 
@@ -148,8 +144,8 @@ void NetcdfFile::close() noexcept {
 void NetcdfFile::wrote(int status) {
     if (status == NC_NOERR) return;
     failed_ = true;
-    throw RunError(fmt::format("{}: cannot be written: {}; the {} records before stay readable",
-                               path_.string(), nc_strerror(status), records_));
+    throw RunError("{}: cannot be written: {}; the {} records before stay readable", path_.string(),
+                   nc_strerror(status), records_);
 }
 
 int NetcdfFile::dimension(const std::string& name, std::size_t length) {
@@ -177,7 +173,7 @@ void NetcdfFile::end_definitions() {
 int NetcdfFile::find_variable(const std::string& name) const {
     int id = -1;
     if (nc_inq_varid(id_, name.c_str(), &id) != NC_NOERR) {
-        throw UserError(fmt::format("{}: has no variable `{}`", path_.string(), name));
+        throw UserError("{}: has no variable `{}`", path_.string(), name);
     }
     return id;
 }
@@ -229,7 +225,7 @@ std::size_t NetcdfFile::length(const std::string& dimension) const {
     std::size_t length = 0;
     if (nc_inq_dimid(id_, dimension.c_str(), &id) != NC_NOERR ||
         nc_inq_dimlen(id_, id, &length) != NC_NOERR) {
-        throw UserError(fmt::format("{}: has no dimension `{}`", path_.string(), dimension));
+        throw UserError("{}: has no dimension `{}`", path_.string(), dimension);
     }
     return length;
 }
@@ -304,8 +300,7 @@ void NetcdfFile::get_by(Function read, int variable, const Index& start, const I
     // their number is checked first.
     if (status == NC_NOERR && static_cast<std::size_t>(rank) != count.size()) status = NC_EINVALCOORDS;
     if (status == NC_NOERR) status = read(id_, variable, start.data(), count.data(), values);
-    if (status != NC_NOERR)
-        throw UserError(fmt::format("{}: cannot be read: {}", path_.string(), nc_strerror(status)));
+    if (status != NC_NOERR) throw UserError("{}: cannot be read: {}", path_.string(), nc_strerror(status));
 }
 
 void NetcdfFile::get(int variable, const Index& start, const Index& count, int* values) const {
@@ -320,9 +315,7 @@ void NetcdfFile::get(int variable, const Index& start, const Index& count, doubl
 
 void NetcdfFile::sync(std::size_t records) {
     wrote(nc_sync(id_));
-    std::error_code error;
-    if (!std::filesystem::exists(path_, error))
-        throw RunError(fmt::format("{}: has been removed while the run wrote it", path_.string()));
+    if (!is_there(path_)) throw RunError("{}: has been removed while the run wrote it", path_.string());
     records_ = records;
 }
 

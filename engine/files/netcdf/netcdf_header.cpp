@@ -10,9 +10,8 @@
 #include <system_error>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 
 namespace grainreel {
 
@@ -38,12 +37,12 @@ class Parser {
   public:
     explicit Parser(const std::filesystem::path& path) : path_(path) {
         std::error_code error;
-        if (std::filesystem::is_regular_file(path, error)) {  // opening a pipe might never end
+        if (is_plain(path)) {  // opening a pipe might never end
             size_ = std::filesystem::file_size(path, error);
             in_.open(path, std::ios::binary);
         }
         if (error || !in_.is_open())
-            throw UserError(fmt::format("{}: cannot be opened; is it there, and a file?", path.string()));
+            throw UserError("{}: cannot be opened; is it there, and a file?", path.string());
     }
 
     NetcdfHeader parse() {
@@ -63,21 +62,19 @@ class Parser {
     };
 
     [[noreturn]] void damaged(const char* what) const {
-        throw UserError(
-            fmt::format("{}: its header is damaged ({}); copy the file again", path_.string(), what));
+        throw UserError("{}: its header is damaged ({}); copy the file again", path_.string(), what);
     }
 
     void read_magic() {
         // A run that was killed just now may have made the file, and not yet written its header.
-        if (size_ == 0) throw UserError(fmt::format("{}: holds no frame yet: it is empty", path_.string()));
+        if (size_ == 0) throw UserError("{}: holds no frame yet: it is empty", path_.string());
         std::array<char, 4> magic{};
         in_.read(magic.data(), magic.size());
         at_ = magic.size();
         version_ = magic[3];
         if (!in_ || magic[0] != 'C' || magic[1] != 'D' || magic[2] != 'F' ||
             (version_ != 1 && version_ != 2 && version_ != 5))
-            throw UserError(fmt::format("{}: cannot be read: it is no NetCDF file of the classic format",
-                                        path_.string()));
+            throw UserError("{}: cannot be read: it is no NetCDF file of the classic format", path_.string());
         count_width_ = version_ == 5 ? 8 : 4;
         offset_width_ = version_ == 1 ? 4 : 8;
     }

@@ -50,8 +50,7 @@ Flat flat(const std::vector<TrajectoryMesh>& meshes) {
 }
 
 [[noreturn]] void damaged(const std::filesystem::path& path, const std::string& what) {
-    throw UserError(fmt::format("{}: the shapes of its meshes are damaged: {}; copy the file again",
-                                path.string(), what));
+    throw UserError("{}: the shapes of its meshes are damaged: {}; copy the file again", path.string(), what);
 }
 
 // The length of a dimension. Throws UserError where it is too large for the file's size, which is damage.

@@ -33,17 +33,15 @@ void check_complete(const NetcdfFile& file, const std::string& name) {
     std::for_each(frame_variables.begin(), frame_variables.end(), check);
     std::for_each(grain_variables.begin(), grain_variables.end(), check);
     if (missing.empty() && !file.has_records())
-        throw UserError(
-            fmt::format("{}: its header is damaged (its frames are not counted); copy the file again", name));
+        throw UserError("{}: its header is damaged (its frames are not counted); copy the file again", name);
     if (missing.empty()) return;
     if (missing.size() == frame_variables.size() + grain_variables.size())
         throw UserError(
-            fmt::format("{}: has none of a trajectory's variables: it was cut off, or is another file; "
-                        "give the trajectory.nc of a run",
-                        name));
-    throw UserError(
-        fmt::format("{}: not a trajectory of grainreel: it lacks {}; give the trajectory.nc of a run", name,
-                    fmt::join(missing, ", ")));
+            "{}: has none of a trajectory's variables: it was cut off, or is another file; "
+            "give the trajectory.nc of a run",
+            name);
+    throw UserError("{}: not a trajectory of grainreel: it lacks {}; give the trajectory.nc of a run", name,
+                    fmt::join(missing, ", "));
 }
 
 // Throws UserError where more than one of the counted frames is not whole; the library would read zeros
@@ -51,8 +49,8 @@ void check_complete(const NetcdfFile& file, const std::string& name) {
 // the file, the library writes it together with the count of frames, and the count first.
 void check_whole(std::size_t counted, std::size_t whole, const std::string& name) {
     if (whole + 1 < counted)
-        throw UserError(fmt::format("{}: was cut off: of its {} frames {} are whole; copy it again", name,
-                                    counted, whole));
+        throw UserError("{}: was cut off: of its {} frames {} are whole; copy it again", name, counted,
+                        whole);
 }
 
 }  // namespace
@@ -111,8 +109,8 @@ struct TrajectoryReader::Impl {
     void read_bodies() {
         const std::size_t bodies = file.length("body");
         if (bodies > most_bodies)
-            throw UserError(fmt::format("{}: says that it has {} walls beside the container's; copy it again",
-                                        source, bodies));
+            throw UserError("{}: says that it has {} walls beside the container's; copy it again", source,
+                            bodies);
         std::istringstream names(file.text_attribute(file.find_variable("body_place"), "names"));
         info.bodies.resize(bodies);
         for (std::string& name : info.bodies) std::getline(names, name);

@@ -309,8 +309,7 @@ void TrajectoryWriter::Impl::keep(const State& frame) {
 
 void TrajectoryWriter::Impl::add_place(const State& frame, std::size_t i) {
     if (kept.size() == places)
-        throw RunError(
-            fmt::format("{}: more grains came than the {} that the file has places for", name, places));
+        throw RunError("{}: more grains came than the {} that the file has places for", name, places);
     kept.id.push_back(frame.id[i]);
     kept.species.push_back(frame.species[i]);
     kept.radius.push_back(frame.radius[i]);
@@ -349,8 +348,7 @@ bool TrajectoryWriter::goes_on_with(const TrajectoryInfo& info, const std::files
         there.orientation != info.orientation || there.masses != info.masses || there.shapes != info.shapes ||
         there.container_turns != info.container_turns || !same_meshes(there.meshes, info.meshes) ||
         !there.checksums)
-        throw UserError(
-            fmt::format("{}: is of another scene, or of another version of grainreel", path.string()));
+        throw UserError("{}: is of another scene, or of another version of grainreel", path.string());
     return there.capacity == std::max<std::size_t>(info.capacity, 1);
 }
 
@@ -382,8 +380,8 @@ void TrajectoryWriter::write(const State& frame) {
     GRAINREEL_CHECK(!impl_->info.shapes || frame.shape.size() == frame.size());
     GRAINREEL_CHECK(frame.bodies.size() == kFirstPlaneBody + impl_->info.bodies.size());
     if (frame.size() > impl_->info.capacity) {
-        throw RunError(fmt::format("{}: has places for {} grains, and a frame has {}", impl_->name,
-                                   impl_->info.capacity, frame.size()));
+        throw RunError("{}: has places for {} grains, and a frame has {}", impl_->name, impl_->info.capacity,
+                       frame.size());
     }
     if (impl_->info.traffic) impl_->keep(frame);
     impl_->write_pose(frame);

@@ -12,6 +12,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
+#include "engine/step/step_loop.hpp"
 #include "engine/step/surroundings.hpp"
 
 namespace grainreel {

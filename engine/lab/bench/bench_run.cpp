@@ -5,7 +5,6 @@
 #include <xxhash.h>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <numeric>
 

@@ -55,16 +55,16 @@ Rows whole_rows(const std::filesystem::path& path) {
 double value_in(const std::vector<std::string>& row, std::size_t column) {
     const std::optional<double> value = number_in(row.at(column), Dialect::programs);
     if (value) return *value;
-    throw UserError(fmt::format("a table of this chart has \"{}\" in place of a number; remove the row `{}`",
-                                excerpt(row[column]), excerpt(fmt::format("{}", fmt::join(row, ",")))));
+    throw UserError("a table of this chart has \"{}\" in place of a number; remove the row `{}`",
+                    excerpt(row[column]), excerpt(fmt::format("{}", fmt::join(row, ","))));
 }
 
 ResultTable::ResultTable(const std::filesystem::path& path, const std::string& header, std::size_t keys)
     : keys_(keys), file_([&] {
           Rows rows = whole_rows(path);
           if (!rows.empty() && join(rows.front()) != header)
-              throw UserError(fmt::format(
-                  "{}:1: is not a table of this chart; move it away, or give another --out", path.string()));
+              throw UserError("{}:1: is not a table of this chart; move it away, or give another --out",
+                              path.string());
           TextFile file(path);
           file.write(header + "\n");
           for (std::size_t i = 1; i < rows.size(); ++i) {

@@ -2,7 +2,6 @@
 // without a scene.
 #pragma once
 
-#include <cmath>
 #include <memory>
 #include <numbers>
 

@@ -17,7 +17,7 @@ namespace grainreel {
 
 double solid_fraction(const Container& container, const Grains& grains, double floor, double top) {
     const double height = std::min(top - floor, container.height);
-    if (container.shape == Container::Shape::none || !(height > container.base())) return kNoValue;
+    if (container.shape == Container::Shape::none || !(height > container.base())) return kUnknown;
     double solid = 0;
     for (const Place& p : grains.place) {
         const double r = p.radius, cap = std::clamp(floor + height - (p.position.z() - r), 0.0, 2 * r);
@@ -27,7 +27,7 @@ double solid_fraction(const Container& container, const Grains& grains, double f
 }
 
 double Fabric::anisotropy() const {
-    if (contacts_ == 0) return kNoValue;
+    if (contacts_ == 0) return kUnknown;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.compute(tensor(), Eigen::EigenvaluesOnly);
     const Vec3 rising = solver.eigenvalues();
@@ -61,7 +61,7 @@ double intruder_height(const Scene& scene, const Grains& grains, std::size_t int
         const bool near = std::abs(p.position.x()) < reach && std::abs(p.position.y()) < reach;
         if (i != intruder && near) around.push_back(p);
     }
-    if (around.empty()) return kNoValue;
+    if (around.empty()) return kUnknown;
     const BedOutline surface = surface_of(around, {-reach, reach, -reach, reach, 0, mean});
     return (own.position.z() + own.radius - floor) / (surface.mean() - floor);
 }

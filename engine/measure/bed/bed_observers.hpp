@@ -81,7 +81,7 @@ class BedMotion final : public Observer {
         note(m);
     }
     void look(const ObservedState& m, std::vector<double>& row) override {
-        row.push_back(rest_height_ > 0 ? height_of(m) / rest_height_ : kNoValue);
+        row.push_back(rest_height_ > 0 ? height_of(m) / rest_height_ : kUnknown);
         const std::optional<Flight::Times> last = flight_.last();
         if (!last) return add_no_values(row, 3);
         row.insert(row.end(), {m.clock.phase(last->from), m.clock.phase(last->to),
@@ -137,7 +137,7 @@ class BedMotion final : public Observer {
 
     const std::int64_t every_;  // steps
     const bool shaken_;
-    double rest_height_ = kNoValue;  // m
+    double rest_height_ = kUnknown;  // m
     Flight flight_;
     std::int64_t step_ = 0;  // step of the last look at the floor
     FaceSums floor_;         // sums at that step
@@ -364,11 +364,11 @@ class Intruder final : public Observer {
   private:
     static double height_at(const ObservedState& m) {
         const std::optional<std::size_t> intruder = find_intruder(m.scene, m.grains);
-        return intruder ? intruder_height(m.scene, m.grains, *intruder, m.floor_height()) : kNoValue;
+        return intruder ? intruder_height(m.scene, m.grains, *intruder, m.floor_height()) : kUnknown;
     }
 
     const Rows rows_;
-    double rise_time_ = kNoValue;  // s
+    double rise_time_ = kUnknown;  // s
 };
 
 }  // namespace grainreel::observers

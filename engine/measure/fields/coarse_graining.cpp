@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 namespace {
@@ -139,14 +139,13 @@ void CoarseGraining::load(Bytes& in) {
 
 CoarseFields CoarseGraining::mean() const {
     GRAINREEL_CHECK(moments_ > 0);
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const double share = 1 / static_cast<double>(moments_);
     const auto cells = static_cast<std::size_t>(grid_.cells());
     CoarseFields fields;
     fields.density.assign(cells, 0);
     fields.solid_fraction.assign(species_, CellValues(cells));
-    fields.velocity.assign(3, CellValues(cells, none));
-    fields.temperature.assign(cells, none);
+    fields.velocity.assign(3, CellValues(cells, kUnknown));
+    fields.temperature.assign(cells, kUnknown);
     fields.kinetic_stress.assign(upper.size(), CellValues(cells));
     fields.contact_stress.assign(contact_width, CellValues(cells));
     for (std::size_t cell = 0; cell < cells; ++cell) {
@@ -192,7 +191,7 @@ std::vector<double> profile_of(const CellValues& values, const CellValues& weigh
             sum += weights[cell] * values[cell];
             weight += weights[cell];
         }
-        profile.push_back(weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN());
+        profile.push_back(weight > 0 ? sum / weight : kUnknown);
     }
     return profile;
 }
@@ -211,8 +210,7 @@ std::vector<std::vector<double>> share_profiles(const CoarseFields& fields, cons
     for (std::size_t place = 0; !profiles.empty() && place < profiles.front().size(); ++place) {
         double all = 0;
         for (const std::vector<double>& one : profiles) all += one[place];
-        for (std::vector<double>& one : profiles)
-            one[place] = all > 0 ? one[place] / all : std::numeric_limits<double>::quiet_NaN();
+        for (std::vector<double>& one : profiles) one[place] = all > 0 ? one[place] / all : kUnknown;
     }
     return profiles;
 }

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <limits>
 
+#include "engine/base/numbers.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel {
@@ -66,12 +66,11 @@ FieldSet coarse_field_set(const Scene& scene, const CoarseGraining& by) {
 }
 
 FieldValues coarse_field_values(const std::optional<CoarseFields>& fields, const CoarseGraining& by) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     FieldValues values{by.shares()};
     for (double& share : values[0]) share *= by.grid().cell_volume();
     const std::size_t more = 1 + by.species() + 3 + 1 + 6 + 9;
     if (!fields) {
-        values.resize(1 + more, CellValues(by.shares().size(), none));
+        values.resize(1 + more, CellValues(by.shares().size(), kUnknown));
         return values;
     }
     const auto add = [&](const auto& several) {

@@ -88,10 +88,10 @@ void Drift::note(std::int64_t period, const Grains& grains, const DrivePose& pos
 }
 
 void Drift::remember(const Grains& grains, const DrivePose& pose) {
-    before_.assign(before_.size(), {kNoValue, kNoValue});
+    before_.assign(before_.size(), {kUnknown, kUnknown});
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const auto id = static_cast<std::size_t>(grains.id[i]);
-        if (id >= before_.size()) before_.resize(id + 1, {kNoValue, kNoValue});
+        if (id >= before_.size()) before_.resize(id + 1, {kUnknown, kUnknown});
         const Vec3 place = grains.place[i].position - pose.offset;
         before_[id] = {place.y(), place.z()};
     }
@@ -130,8 +130,8 @@ Estimate Drift::estimate(const Value& value) const {
     double mean = 0, squares = 0;
     for (const Window& window : windows_) mean += value(window) / count;
     for (const Window& window : windows_) squares += (value(window) - mean) * (value(window) - mean);
-    if (windows_.empty()) return {kNoValue, kNoValue};
-    return {mean, windows_.size() > 1 ? std::sqrt(squares / (count - 1) / count) : kNoValue};
+    if (windows_.empty()) return {kUnknown, kUnknown};
+    return {mean, windows_.size() > 1 ? std::sqrt(squares / (count - 1) / count) : kUnknown};
 }
 
 Estimate Drift::rise(Zone zone) const {

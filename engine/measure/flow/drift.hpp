@@ -61,7 +61,7 @@ Circulation circulation(const VelocityGrid& grid, double from, double to);
 std::vector<double> stream_function(const VelocityGrid& grid);
 
 struct RollCentre {
-    double y = kNoValue, z = kNoValue;  // m
+    double y = kUnknown, z = kUnknown;  // m
     double psi = 0;                     // speed times m; positive where the field turns counter-clockwise
 };
 

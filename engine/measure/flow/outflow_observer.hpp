@@ -157,7 +157,7 @@ class Outflow final : public Observer {
     MassCounts at_start_;        // masses at the start, minus what feeds had given by then
     WideInt most_ = 0;           // largest mass that was inside at a row
     Noted before_, last_;        // at the last two rows
-    double emptied_ = kNoValue;  // s
+    double emptied_ = kUnknown;  // s
 };
 
 }  // namespace grainreel::observers

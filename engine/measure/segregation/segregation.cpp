@@ -75,18 +75,18 @@ Samples take_samples(const std::vector<Vec3>& position, const std::vector<std::u
 }
 
 double lacey_index(const Samples& samples) {
-    if (samples.rare_grains() < kLeastOfRareKind) return kNoValue;
+    if (samples.rare_grains() < kLeastOfRareKind) return kUnknown;
     const double segregated = samples.segregated_variance(), random = segregated / samples.grains;
     return (segregated - samples.variance) / (segregated - random);
 }
 
 double intensity_of_segregation(const Samples& samples) {
     const double segregated = samples.segregated_variance();
-    return segregated > 0 ? samples.variance / segregated : kNoValue;
+    return segregated > 0 ? samples.variance / segregated : kUnknown;
 }
 
 double share_above(std::vector<double>& these, std::vector<double>& those) {
-    if (these.empty() || those.empty()) return kNoValue;
+    if (these.empty() || those.empty()) return kUnknown;
     std::sort(these.begin(), these.end());
     std::sort(those.begin(), those.end());
     std::size_t lower = 0,

@@ -1,6 +1,6 @@
 #include "engine/measure/segregation/unlike_neighbours.hpp"
 
-#include <limits>
+#include "engine/base/numbers.hpp"
 
 namespace grainreel {
 
@@ -41,15 +41,14 @@ double unlike_by_chance(const LargeArray<Place>& place, const std::vector<std::i
 
 double unlike_neighbours(const LargeArray<Place>& place, const std::vector<std::int32_t>& species, double gap,
                          double period) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (place.size() < 2) return none;
+    if (place.size() < 2) return kUnknown;
     double unlike = 0, all = 0;
     NeighbourPairs(place, gap, period).each([&](std::int32_t a, std::int32_t b) {
         all += 1;
         unlike += species[a] != species[b];
     });
     const double chance = unlike_by_chance(place, species);
-    if (all == 0 || chance == 0) return none;
+    if (all == 0 || chance == 0) return kUnknown;
     return unlike / all / chance;
 }
 

@@ -198,7 +198,7 @@ double mean_between(const BedOutline& s, double from, double to) {
 
 Mound mound_of(const BedOutline& s) {
     const std::size_t count = s.height.size();
-    if (count < kLeastBins) return {kNoValue, kNoValue, kNoValue};
+    if (count < kLeastBins) return {kUnknown, kUnknown, kUnknown};
     const double sixth = s.width() / 6, right = s.left + s.width();
     const double middle = mean_between(s, s.left + 2 * sixth, right - 2 * sixth);
     const double edges =
@@ -231,7 +231,7 @@ DominantWave Spectrum::dominant(const std::vector<double>& heights, double width
         const double power = by_cosine * by_cosine + by_sine * by_sine;
         if (power > largest) largest = power, dominant = k;
     }
-    if (dominant == 0 || variance == 0) return {kNoValue, kNoValue};
+    if (dominant == 0 || variance == 0) return {kUnknown, kUnknown};
     const auto count = static_cast<double>(bins_);
     return {2 * width / static_cast<double>(dominant), 2 * largest / (count * count * variance)};
 }
@@ -268,7 +268,7 @@ Subharmonics subharmonics_of(const std::vector<const std::vector<double>*>& surf
         half += std::norm(a);
         quarter += 2 * std::norm(b);
     }
-    if (power == 0) return {kNoValue, kNoValue};
+    if (power == 0) return {kUnknown, kUnknown};
     return {half / power, quarter / power};
 }
 

@@ -22,7 +22,7 @@ double slope_between(const BedOutline& surface, double from, double to) {
         if (at < from || at > to) continue;
         count += 1, y += at, h += height, yy += at * at, yh += at * height;
     }
-    if (count < 3) return kNoValue;
+    if (count < 3) return kUnknown;
     return (count * yh - y * h) / (count * yy - y * y);
 }
 
@@ -40,7 +40,7 @@ std::optional<DrumAxes> drum_axes(const BodyTurn& turn, const Vec3& gravity) {
 }
 
 double angle_of_repose(std::span<const Place> grains, const DrumAxes& axes, double diameter) {
-    if (grains.size() < kFewest) return kNoValue;
+    if (grains.size() < kFewest) return kUnknown;
     std::vector<Place> seen;
     std::vector<double> sideways;
     SurfaceAxes frame;
@@ -59,7 +59,7 @@ double angle_of_repose(std::span<const Place> grains, const DrumAxes& axes, doub
     const auto out = static_cast<std::size_t>(kOutermost * static_cast<double>(sideways.size()));
     frame.left = sideways[out];
     frame.right = sideways[sideways.size() - 1 - out];
-    if (!(frame.right > frame.left)) return kNoValue;
+    if (!(frame.right > frame.left)) return kUnknown;
     std::erase_if(seen, [&](const Place& grain) {
         return grain.position.y() < frame.left || grain.position.y() > frame.right;
     });
@@ -68,7 +68,7 @@ double angle_of_repose(std::span<const Place> grains, const DrumAxes& axes, doub
 }
 
 double froude_number(double rate, double radius, double gravity) {
-    return gravity > 0 ? rate * rate * radius / gravity : kNoValue;
+    return gravity > 0 ? rate * rate * radius / gravity : kUnknown;
 }
 
 }  // namespace grainreel

@@ -151,7 +151,7 @@ class BedSurface final : public Observer {
     }
     // NaN until enough periods have been seen at this phase, and if rows are not whole periods apart.
     Subharmonics compare_with_earlier(const ObservedState& m, const std::vector<double>& height) const {
-        if (m.clock.steps_per_period == 0) return {kNoValue, kNoValue};
+        if (m.clock.steps_per_period == 0) return {kUnknown, kUnknown};
         std::vector<const std::vector<double>*> same_phase;
         for (const Earlier& earlier : earlier_) {
             const double periods = periods_since(m, earlier);
@@ -160,7 +160,7 @@ class BedSurface final : public Observer {
                 same_phase.push_back(&earlier.height);
         }
         same_phase.push_back(&height);
-        if (same_phase.size() != kComparedPeriods) return {kNoValue, kNoValue};
+        if (same_phase.size() != kComparedPeriods) return {kUnknown, kUnknown};
         return subharmonics_of(same_phase);
     }
 
@@ -205,7 +205,7 @@ class Drum final : public Observer {
         if (!drum_) return add_no_values(row, 3);
         const BodyTurn& turn = drum_->turn;
         const auto axes = drum_axes(turn, m.gravity);
-        const double angle = axes ? angle_of_repose(m.grains.place, *axes, diameter_) : kNoValue;
+        const double angle = axes ? angle_of_repose(m.grains.place, *axes, diameter_) : kUnknown;
         row.insert(row.end(), {std::abs(turn.angle_at(m.pose.time)) / (2 * std::numbers::pi),
                                angle * 180 / std::numbers::pi,
                                froude_number(turn.rate_at(m.pose.time), drum_->radius, m.gravity.norm())});

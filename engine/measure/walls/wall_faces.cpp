@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/output.hpp"
 #include "engine/state/body.hpp"
@@ -94,7 +94,7 @@ FieldValues PressureProfile::pressures(const std::vector<double>& normal) const 
         std::vector<double>& profile = values.emplace_back();
         for (std::size_t s = 0; s < area_[k].size(); ++s)
             profile.push_back(area_[k][s] > 0 ? normal[faces_[k] * area_[k].size() + s] / area_[k][s]
-                                              : std::numeric_limits<double>::quiet_NaN());
+                                              : kUnknown);
     }
     return values;
 }

@@ -110,7 +110,7 @@ class WallForces final : public Observer {
     }
     FieldValues look_at_fields(const ObservedState& m) override {
         const Record& from = record_.step < m.step ? record_ : record_before_;
-        std::vector<double> normal(m.wall_sums->slices.size(), kNoValue);
+        std::vector<double> normal(m.wall_sums->slices.size(), kUnknown);
         const double per_step = m.wall_sums->scale.force / static_cast<double>(m.step - from.step);
         for (std::size_t s = 0; s < from.slices.size(); ++s)
             normal[s] = per_step * static_cast<double>(m.wall_sums->slices[s] - from.slices[s]);

@@ -116,7 +116,7 @@ class Wear final : public Observer {
         FieldValues values;
         for (std::size_t k = 0; k < areas_.size(); ++k) {
             const WearSums& sums = tally_.sums()[k];
-            std::vector<double> pressure(areas_[k].size(), kNoValue), wear;
+            std::vector<double> pressure(areas_[k].size(), kUnknown), wear;
             for (std::size_t t = 0; t < areas_[k].size(); ++t) {
                 if (!from.press.empty() && time > 0)
                     pressure[t] = (sums.press[t] - from.press[k][t]) / (time * areas_[k][t]);

@@ -5,13 +5,12 @@
 #include <fmt/ranges.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
 #include "engine/base/error.hpp"
-#include "engine/base/file_state.hpp"
 #include "engine/base/number_text.hpp"
+#include "engine/base/system/file_state.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
 
@@ -86,8 +85,8 @@ std::optional<std::string_view> shipped_mesh(const std::filesystem::path& file) 
         if (mesh.name == name) return mesh.bytes;
         names.push_back(mesh.name);
     }
-    throw UserError(fmt::format("{}{}: the program has no such mesh; it has {}", shipped_prefix,
-                                excerpt(name), fmt::join(names, ", ")));
+    throw UserError("{}{}: the program has no such mesh; it has {}", shipped_prefix, excerpt(name),
+                    fmt::join(names, ", "));
 }
 
 namespace {

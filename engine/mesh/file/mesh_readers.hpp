@@ -8,7 +8,6 @@
 // manual, appendix B1 (1993). PLY: G. Turk, The PLY Polygon File Format (1994).
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/lists.hpp"
 #include "engine/base/triangle_mesh.hpp"
 
 namespace grainreel {
@@ -73,7 +73,7 @@ inline bool is_obj_word(std::string_view word) {
         "bmat",  "step",  "curv", "curv2",  "surf",     "parm",     "trim",   "hole",       "scrv",
         "sp",    "end",   "con",  "bevel",  "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj",
         "ctech", "stech", "call", "csh",    "bsp",      "bzp"};
-    return std::find(words.begin(), words.end(), word) != words.end();
+    return contains(words, word);
 }
 
 }  // namespace grainreel

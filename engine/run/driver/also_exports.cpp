@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/frames/state_writer.hpp"
 #include "engine/files/frames/stored_world.hpp"
@@ -47,10 +48,9 @@ void remove_parts(const fs::path& also) {
 
 void check_also(const Scene& scene) {
     const std::vector<std::string> also = names_of(scene.output.also);
-    if (std::find(also.begin(), also.end(), "stl") != also.end() && surfaces_of(world_of(scene)).empty())
-        throw UserError(
-            fmt::format("{}: 'also' names \"stl\", which has walls alone, and this scene has none; remove it",
-                        scene.where("output.also")));
+    if (contains(also, "stl") && surfaces_of(world_of(scene)).empty())
+        throw UserError("{}: 'also' names \"stl\", which has walls alone, and this scene has none; remove it",
+                        scene.where("output.also"));
 }
 
 std::string name_in_also(const std::string& format) {
@@ -65,7 +65,7 @@ std::string write_also(const fs::path& run, const Scene& scene,
     if (formats.empty()) return written;
     const fs::path also = run / kAlsoFolder;
     if (const std::error_code error = make_plain_folder(also); error)
-        throw RunError(fmt::format("{}: cannot be made: {}", also.string(), error.message()));
+        throw RunError("{}: cannot be made: {}", also.string(), error.message());
     remove_parts(also);
     const StoredRun frames(run);
     double begin = 0;

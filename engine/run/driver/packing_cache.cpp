@@ -9,8 +9,8 @@
 #include <system_error>
 #include <vector>
 
-#include "engine/base/own_folder.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/system/own_folder.hpp"
+#include "engine/base/system/program.hpp"
 
 namespace grainreel {
 

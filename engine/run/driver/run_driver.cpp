@@ -154,9 +154,7 @@ void RunDriver::open_files() {
     if (!ready_.key_moments_lost.empty())
         news_.push_back(fmt::format("{}; the run's page may lack forces of moments before {:.4g} s",
                                     ready_.key_moments_lost, plan_.clock.time(simulation_.step())));
-    std::error_code ignored;
-    if (!wishes_.steps.empty() && std::filesystem::exists(folder / kFilmMoments, ignored))
-        files_->keep_film_moments(frames_before_);
+    if (!wishes_.steps.empty() && is_there(folder / kFilmMoments)) files_->keep_film_moments(frames_before_);
 }
 
 std::shared_ptr<State> RunDriver::next(const GoOn& go_on) {

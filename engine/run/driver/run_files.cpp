@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/error.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/files/trajectory/trajectory.hpp"
 #include "engine/measure/measures.hpp"
@@ -192,7 +191,7 @@ Measures LateMeans::means() const {
         double sum = 0, count = 0;
         for (const Measures& row : rows_)
             if (std::isfinite(row.values()[column])) sum += row.values()[column], ++count;
-        means.push_back(count > 0 ? sum / count : kNoValue);
+        means.push_back(count > 0 ? sum / count : kUnknown);
     }
     return {std::make_shared<const std::vector<std::string>>(rows_.back().names()), std::move(means)};
 }

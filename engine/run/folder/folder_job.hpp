@@ -2,7 +2,6 @@
 // whatever happened.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>

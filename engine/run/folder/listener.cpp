@@ -23,7 +23,7 @@ std::string duration_text(double seconds) {
 
 RunLog::RunLog(const std::filesystem::path& path, bool goes_on) {
     if (const std::string other = other_than_file(path, false); !other.empty() && other != "a device")
-        throw RunError(fmt::format("{}: cannot be written: it is {}", path.string(), other));
+        throw RunError("{}: cannot be written: it is {}", path.string(), other);
     try {
         auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), !goes_on);
         logger_ = std::make_unique<spdlog::logger>("run", std::move(sink));

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "engine/files/file_facts.hpp"
-
 namespace grainreel {
 
 namespace {

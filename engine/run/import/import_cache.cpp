@@ -1,7 +1,6 @@
 // Keeps imports in the user's cache folder and finds them again.
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -15,12 +14,12 @@
 #include <xxhash.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/file_state.hpp"
 #include "engine/base/number_text.hpp"
-#include "engine/base/own_folder.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/program.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/base/system/file_state.hpp"
+#include "engine/base/system/own_folder.hpp"
+#include "engine/base/system/program.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/file_groups.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/import/import_run.hpp"
@@ -55,9 +54,9 @@ fs::path own_temporary_imports() {
     const std::string fault = make_own_folder(imports);
     if (!fault.empty())
         throw UserError(
-            fmt::format("{}: {}, so that files of other programs cannot be imported there; remove "
-                        "it, or set XDG_CACHE_HOME to a folder of yours",
-                        imports.string(), fault));
+            "{}: {}, so that files of other programs cannot be imported there; remove "
+            "it, or set XDG_CACHE_HOME to a folder of yours",
+            imports.string(), fault);
     return imports;
 }
 
@@ -73,17 +72,15 @@ fs::path cached_imports() {
 std::vector<fs::path> files_behind(const fs::path& from, const ReadingOptions& options) {
     std::vector<fs::path> files;
     const auto add = [&](const fs::path& path) {
-        std::error_code ignored;
         std::vector<fs::path> more{path};
         if (is_pattern(path))
             more = files_of_pattern(path);
-        else if (fs::is_directory(path, ignored))
+        else if (is_folder(path))
             more = files_in(path);
         files.insert(files.end(), more.begin(), more.end());
     };
     add(from);
-    std::error_code ignored;
-    if (!is_pattern(from) && fs::is_regular_file(from, ignored)) {
+    if (!is_pattern(from) && is_plain(from)) {
         if (!options.one) files = series_of(from).files;
         for (const char* suffix : {".fstat", ".restart"}) {
             fs::path beside = from;
@@ -284,7 +281,7 @@ Imported new_import(const fs::path& place, const std::string& name, ImportReques
             fs::rename(part, place, error);
         }
         if (error && !is_sealed(place, name))
-            throw RunError(fmt::format("{}: cannot be made: {}", place.string(), error.message()));
+            throw RunError("{}: cannot be made: {}", place.string(), error.message());
         make_room(place.parent_path(), place);
         run.folder = place / name;
         return run;
@@ -310,7 +307,7 @@ UnfinishedImport::UnfinishedImport(const fs::path& place, const std::string& nam
     std::error_code ignored;
     fs::remove_all(part, ignored);
     if (const std::string fault = make_own_folder(part); !fault.empty())
-        throw RunError(fmt::format("{}: cannot be made: {}", part.string(), fault));
+        throw RunError("{}: cannot be made: {}", part.string(), fault);
     folder_ = part / name;
 }
 

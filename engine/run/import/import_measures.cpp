@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -183,8 +182,7 @@ std::optional<std::size_t> column_of(const std::string& meaning, const MovingWal
 
 Vec3 middle_of(const TriangleMesh& mesh, std::size_t triangle) {
     Vec3 sum(0, 0, 0);
-    for (const std::int32_t corner : mesh.triangles[triangle])
-        sum += mesh.vertices[static_cast<std::size_t>(corner)];
+    for (const std::int32_t corner : mesh.triangles[triangle]) sum += mesh.vertices[corner];
     return sum / 3;
 }
 
@@ -246,7 +244,7 @@ struct ImportWear::Impl {
     std::vector<double> values(std::size_t moment, std::size_t mesh, std::optional<std::size_t> column,
                                double unit) const {
         const Wall& wall = walls[mesh];
-        std::vector<double> all(wall.origin.size(), kNoValue);
+        std::vector<double> all(wall.origin.size(), kUnknown);
         const RawTable* cells = column ? archive.wall_cells(moment, mesh - first_wall) : nullptr;
         if (cells == nullptr || *column >= cells->columns.size()) return all;
         for (std::size_t t = 0; t < all.size(); ++t)

@@ -8,6 +8,7 @@
 
 #include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
@@ -25,7 +26,7 @@ constexpr int no_size = -1'000'000;      // the class of the value 0
 // The kinetic energy in J of translation and rotation, with 2/5 m r2 for a solid sphere.
 double energy_of(const State& frame, std::size_t i, const Scene& scene) {
     const double r = frame.radius[i];
-    const double mass = mass_of(frame, i, scene.species[static_cast<std::size_t>(frame.species[i])].density);
+    const double mass = mass_of(frame, i, scene.species[frame.species[i]].density);
     return 0.5 * mass * (frame.velocity[i].squaredNorm() + 0.4 * r * r * frame.spin[i].squaredNorm());
 }
 
@@ -105,9 +106,7 @@ void ImportRanges::write(const fs::path& folder) const {
     std::ofstream out(folder / ranges_name, std::ios::binary);
     out << text;
     out.close();
-    if (!out)
-        throw RunError(
-            fmt::format("{}: cannot be written; is the disk full?", (folder / ranges_name).string()));
+    if (!out) throw RunError("{}: cannot be written; is the disk full?", (folder / ranges_name).string());
 }
 
 std::optional<std::array<double, 2>> imported_range(const fs::path& run, std::string_view quantity) {
@@ -125,10 +124,7 @@ std::optional<std::array<double, 2>> imported_range(const fs::path& run, std::st
 bool import_lacks(const fs::path& run, std::string_view quantity) {
     constexpr std::array from_frames = {"speed", "vertical-velocity", "spin", "kinetic-energy",
                                         "contact-force"};
-    std::error_code ignored;
-    return fs::exists(run / ranges_name, ignored) &&
-           std::find(from_frames.begin(), from_frames.end(), quantity) != from_frames.end() &&
-           !imported_range(run, quantity);
+    return is_there(run / ranges_name) && contains(from_frames, quantity) && !imported_range(run, quantity);
 }
 
 }  // namespace grainreel

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/rotation.hpp"
 #include "engine/measure/columns.hpp"
@@ -25,7 +26,7 @@ void write_import_text(const fs::path& file, const std::string& text) {
     std::ofstream out(file, std::ios::binary);
     out << text;
     out.close();
-    if (!out) throw RunError(fmt::format("{}: cannot be written; is the disk full?", file.string()));
+    if (!out) throw RunError("{}: cannot be written; is the disk full?", file.string());
 }
 
 namespace {
@@ -107,11 +108,10 @@ std::string mesh_name(const std::string& wanted, const std::vector<std::string>&
                                                      "right wall", "left slant", "right slant", "back",
                                                      "front",      "tray"};
     const bool face = bare.find_first_not_of(' ') == std::string::npos || bare.starts_with("tray ") ||
-                      std::find(faces.begin(), faces.end(), bare) != faces.end();
+                      contains(faces, bare);
     const std::string base = face ? wanted + " of the files" : wanted;
     std::string name = base;
-    for (int k = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++k)
-        name = fmt::format("{} {}", base, k);
+    for (int k = 2; contains(taken, name); ++k) name = fmt::format("{} {}", base, k);
     return name;
 }
 
@@ -237,8 +237,7 @@ bool has_own_masses(const State& frame, const StoredWorld& world) {
     State spheres;
     spheres.radius = frame.radius;
     for (std::size_t i = 0; i < frame.mass.size(); ++i) {
-        const double usual =
-            mass_of(spheres, i, world.species[static_cast<std::size_t>(frame.species[i])].density);
+        const double usual = mass_of(spheres, i, world.species[frame.species[i]].density);
         if (!(std::abs(frame.mass[i] - usual) <= hair * usual)) return true;
     }
     return false;

@@ -64,7 +64,7 @@ CheckpointRing::CheckpointRing(const fs::path& run, std::int64_t most_bytes, std
                                std::int64_t last)
     : folder_(run / kFolder), most_bytes_(static_cast<std::uintmax_t>(most_bytes)), last_(last) {
     const std::error_code error = make_plain_folder(folder_);
-    if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
+    if (error) throw RunError("{}: cannot be made: {}", folder_.string(), error.message());
     kept_ = those_in(folder_);
     while (!kept_.empty() && kept_.back().step > first) remove(kept_.size() - 1);
 }

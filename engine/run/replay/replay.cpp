@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_json.hpp"
@@ -20,15 +19,6 @@ namespace grainreel {
 namespace fs = std::filesystem;
 
 namespace {
-
-Scene started_from(const Scene& scene, const fs::path& checkpoint) {
-    Scene there = scene;
-    there.start = {};
-    there.start.method = Start::Method::file;
-    there.start.file = checkpoint.string();
-    there.start.keep_clock = true;
-    return there;
-}
 
 // Loads the last usable checkpoint at or before `step`. If there is none, throws the error of the nearest
 // one, which was tried first.
@@ -44,9 +34,8 @@ SimulatedBed nearest_checkpoint(const fs::path& run, const std::vector<KeptCheck
         }
     }
     if (mistake) throw *mistake;
-    throw UserError(
-        fmt::format("{}: has no checkpoint of step {} or before, so that it cannot be brought back there",
-                    run.string(), step));
+    throw UserError("{}: has no checkpoint of step {} or before, so that it cannot be brought back there",
+                    run.string(), step);
 }
 
 // Goes on to a later step. Throws RunError as replayed() does.
@@ -70,13 +59,13 @@ void replay_on(SimulatedBed& simulation, std::int64_t step, const ReplayWatcher&
 Plan plan_of_run(const Scene& scene, const fs::path& run) {
     const std::vector<KeptCheckpoint> kept = kept_checkpoints(run);
     if (kept.empty())
-        throw UserError(fmt::format(
+        throw UserError(
             "{}: has no checkpoints, so that no moment can be brought back; ask for a kept moment "
             "with --no-replay, or run the scene again with output.checkpoints",
-            run.string()));
+            run.string());
     // The file that a run started from may be gone; its first checkpoint has the same grains. Other runs
     // expect the impacts that they expected when they began.
-    if (scene.start.method == Start::Method::file) return make_plan(started_from(scene, kept.front().file));
+    if (scene.start.method == Start::Method::file) return make_plan(continued(scene, kept.front().file));
     Scene there = scene;
     there.start.keep_clock = true;
     Plan plan = make_plan(there);
@@ -198,8 +187,7 @@ std::vector<KeptCheckpoint> own_checkpoints(const fs::path& run, const Scene& sc
     std::vector<KeptCheckpoint> own;
     PassedOver passed_over;
     std::vector<KeptCheckpoint> all = kept_checkpoints(run);
-    std::error_code ignored;
-    if (const fs::path last = run / "checkpoint.grs"; fs::exists(last, ignored) && !label_of_checkpoint(last))
+    if (const fs::path last = run / "checkpoint.grs"; is_there(last) && !label_of_checkpoint(last))
         passed_over.add(last, kDamaged);
     if (all.empty()) {
         passed_over.tell(news);

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <system_error>
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/contacts_file.hpp"
 #include "engine/files/fields_file.hpp"
 #include "engine/files/measures_csv.hpp"
@@ -47,11 +48,6 @@ bool has_all_contacts(const fs::path& run, std::int64_t step) {
 
 }  // namespace
 
-bool is_there(const fs::path& file) {
-    std::error_code ignored;
-    return fs::exists(file, ignored);
-}
-
 std::vector<std::int64_t> steps_in_trajectory(const fs::path& file) {
     std::vector<std::int64_t> steps;
     if (!is_there(file)) return steps;
@@ -68,20 +64,13 @@ std::vector<std::int64_t> steps_in_measures(const fs::path& file) {
     std::vector<std::int64_t> steps;
     const std::shared_ptr<const MeasureTable> table = read_measures(file);
     if (!table) return steps;
-    const auto& columns = table->columns();
-    const auto column = std::find(columns.begin(), columns.end(), "step");
-    if (column == columns.end()) return steps;
-    const auto place = static_cast<std::size_t>(column - columns.begin());
-    for (const double step : table->values(place, 0, table->rows()))
-        steps.push_back(static_cast<std::int64_t>(step));
+    for (const double step : table->all("step")) steps.push_back(static_cast<std::int64_t>(step));
     return steps;
 }
 
 bool keeps_fields(const Scene& scene) {
     const std::vector<std::string> wanted = scene.instruments();
-    const auto wants = [&](const char* instrument) {
-        return std::find(wanted.begin(), wanted.end(), instrument) != wanted.end();
-    };
+    const auto wants = [&](const char* instrument) { return contains(wanted, instrument); };
     return scene.output.fields.wanted() || wants(observers::WallForces::instrument) ||
            (wants(observers::Wear::instrument) && !scene.meshes.empty());
 }
@@ -89,8 +78,8 @@ bool keeps_fields(const Scene& scene) {
 void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& plan) {
     const auto need = [&](const char* name, bool wanted) {
         if (wanted && !is_there(run / name))
-            throw UserError(fmt::format("{}: is missing, so the run cannot go on; run its scene.toml again",
-                                        (run / name).string()));
+            throw UserError("{}: is missing, so the run cannot go on; run its scene.toml again",
+                            (run / name).string());
     };
     need("measures.csv", true);
     need("trajectory.nc", plan.trajectory_every > 0);
@@ -98,8 +87,8 @@ void check_files_of_run(const fs::path& run, const Scene& scene, const Plan& pla
     need("fields.nc", keeps_fields(scene));
     need("outflow.csv", grains_leave(scene));
     if (!read_measures(run / "measures.csv"))
-        throw UserError(fmt::format("{}: cannot be read, so the run cannot go on; run its scene.toml again",
-                                    (run / "measures.csv").string()));
+        throw UserError("{}: cannot be read, so the run cannot go on; run its scene.toml again",
+                        (run / "measures.csv").string());
     // Each reader throws if its file cannot be read.
     if (plan.trajectory_every > 0) TrajectoryReader reader(run / "trajectory.nc");
     if (plan.trajectory_every > 0 && scene.output.contacts) ContactsReader reader(run / "contacts.nc");
@@ -150,9 +139,9 @@ class Ready {
         // If the scene keeps the clock of an earlier run, the grains that left in that run are in that run's
         // file.
         if (!scene_.start.keep_clock && kept.rows != simulation_.traffic().left)
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}: has {} grains up to {:.6g} s, where {} have left; the run cannot go on without them",
-                file.string(), kept.rows, now(), simulation_.traffic().left));
+                file.string(), kept.rows, now(), simulation_.traffic().left);
         former_.cut("outflow.csv", kept.bytes);
     }
 

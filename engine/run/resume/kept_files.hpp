@@ -16,8 +16,6 @@
 
 namespace grainreel {
 
-bool is_there(const std::filesystem::path& file);
-
 // Whether the run has a fields.nc, with fields on a grid or pressures on walls.
 bool keeps_fields(const Scene& scene);
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <system_error>
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/run/replay/checkpoint_ring.hpp"
 #include "engine/run/resume/kept_files.hpp"
@@ -32,11 +32,11 @@ void check_same_files(const std::string& then, const Scene& scene, const Plan& p
     for (const KeyDifference& difference : differences_of_table(then, scene_to_keep(scene, plan), "output")) {
         if (may_change(difference.key)) continue;
         throw UserError(
-            fmt::format("{}: '{}' is {}, but it was {} in this run, whose files would not go together; put "
-                        "back what it was",
-                        scene.where(difference.key), difference.key,
-                        difference.now.empty() ? "not there" : difference.now,
-                        difference.then.empty() ? "not there" : difference.then));
+            "{}: '{}' is {}, but it was {} in this run, whose files would not go together; put "
+            "back what it was",
+            scene.where(difference.key), difference.key,
+            difference.now.empty() ? "not there" : difference.now,
+            difference.then.empty() ? "not there" : difference.then);
     }
 }
 
@@ -83,12 +83,11 @@ std::string why_held_back(const KeptCheckpoint& one, const KeptCheckpoint& last,
 [[noreturn]] void refuse(const fs::path& run, const Limits& limits, std::int64_t earliest) {
     if (limits.film < earliest)
         throw UserError(
-            fmt::format("{}: the moments that its film needs are not there, and neither is a checkpoint from "
-                        "before them; "
-                        "--no-film goes on without the film, and `render` draws one of the trajectory",
-                        run.string()));
-    throw UserError(
-        fmt::format("{}: has no checkpoint that its other files reach; run the scene again", run.string()));
+            "{}: the moments that its film needs are not there, and neither is a checkpoint from "
+            "before them; "
+            "--no-film goes on without the film, and `render` draws one of the trajectory",
+            run.string());
+    throw UserError("{}: has no checkpoint that its other files reach; run the scene again", run.string());
 }
 
 }  // namespace
@@ -98,9 +97,9 @@ ResumePoint find_resume_point(const Scene& scene, const Plan& plan, const fs::pa
     const std::vector<KeptCheckpoint> kept = kept_checkpoints(run);
     if (kept.empty())
         throw UserError(
-            fmt::format("{}: has no checkpoint; the run was stopped while its grains were packed, so "
-                        "run its scene.toml again",
-                        run.string()));
+            "{}: has no checkpoint; the run was stopped while its grains were packed, so "
+            "run its scene.toml again",
+            run.string());
     check_files_of_run(run, scene, plan);
     const std::vector<std::int64_t> rows = steps_in_measures(run / "measures.csv"),
                                     frames = steps_in_trajectory(run / kFilmMoments);
@@ -159,9 +158,9 @@ bool can_be_named(const std::string& name) {
 void check_can_change(const std::string& key) {
     if (can_be_named(key)) return;
     throw UserError(
-        fmt::format("--accept: '{}' cannot change while a run goes on; these can: drive.g_level, "
-                    "drive.amplitude, contact.friction, contact.rolling_friction",
-                    key));
+        "--accept: '{}' cannot change while a run goes on; these can: drive.g_level, "
+        "drive.amplitude, contact.friction, contact.rolling_friction",
+        key);
 }
 
 }  // namespace
@@ -175,20 +174,20 @@ std::vector<AcceptedChange> accepted_changes(const std::filesystem::path& checkp
     for (const KeyDifference& difference : deciding_differences(label->scene, scene_to_keep(scene, plan))) {
         check_can_change(difference.key);
         if (!is_named(difference.key, accepted))
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}: '{}' is {}, but it was {} in this run; put back what it was, or give --accept {}",
                 scene.where(difference.key), difference.key,
                 difference.now.empty() ? "not there" : difference.now,
-                difference.then.empty() ? "not there" : difference.then, difference.key));
+                difference.then.empty() ? "not there" : difference.then, difference.key);
         changes.push_back({difference.key, difference.then, difference.now});
     }
     for (const std::string& name : accepted)
         if (std::none_of(changes.begin(), changes.end(),
                          [&](const AcceptedChange& change) { return is_named(change.key, {name}); }))
             throw UserError(
-                fmt::format("--accept: '{}' is what it was in this run; give it another value, as in "
-                            "drive.g_level=3",
-                            name));
+                "--accept: '{}' is what it was in this run; give it another value, as in "
+                "drive.g_level=3",
+                name);
     return changes;
 }
 
@@ -206,10 +205,10 @@ Drive drive_changed_at(double time, const Scene& before, const Scene& after,
     if (!changes_drive) return after.drive;
     Drive drive = before.drive;
     if (!drive.stages.empty() && drive.stages.front().from <= time)
-        throw UserError(fmt::format(
+        throw UserError(
             "--accept: a stage of the drive began at {:.6g} s; change the stages in scene.toml that come "
             "after {:.6g} s",
-            drive.stages.front().from, time));
+            drive.stages.front().from, time);
     DriveStage stage;
     stage.from = time;
     stage.frequency = after.drive.frequency;
@@ -224,7 +223,7 @@ std::string words_of_changes(const Scene& before, const Scene& after,
     if (changes.empty()) return "";
     std::vector<std::string> parts;
     const auto add = [&](const std::string& part) {
-        if (std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
+        if (!contains(parts, part)) parts.push_back(part);
     };
     for (const AcceptedChange& change : changes) {
         if (change.key == "drive.amplitude") {
@@ -248,9 +247,9 @@ void check_overlap_stays(const Scene& scene, const Plan& before, const Plan& aft
     const double limit = std::max(scene.run.overlap, before.expected_overlap);
     if (after.expected_overlap <= limit * (1 + 1e-9)) return;
     throw UserError(
-        fmt::format("--accept: grains would overlap by {:.3g} % of their diameter, and this run is made for "
-                    "{:.3g} %; shake less, or start anew from its final.csv",
-                    100 * after.expected_overlap, 100 * limit));
+        "--accept: grains would overlap by {:.3g} % of their diameter, and this run is made for "
+        "{:.3g} %; shake less, or start anew from its final.csv",
+        100 * after.expected_overlap, 100 * limit);
 }
 
 }  // namespace grainreel

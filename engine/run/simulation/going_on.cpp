@@ -1,5 +1,4 @@
 // Saves a simulation and resumes it, bit by bit.
-#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <sstream>
@@ -15,15 +14,10 @@ namespace grainreel {
 SimulatedBed SimulatedBed::at_checkpoint(const Scene& scene, const Plan& plan,
                                          const std::filesystem::path& checkpoint, int threads,
                                          bool may_change, bool replays) {
-    Scene there = scene;
-    there.start = {};
-    there.start.method = Start::Method::file;
-    there.start.file = checkpoint.string();
-    there.start.keep_clock = true;
     const Impl::Takes what = replays      ? Impl::Takes::replay
                              : may_change ? Impl::Takes::changed_run
                                           : Impl::Takes::same_run;
-    return SimulatedBed(std::make_unique<Impl>(there, plan, threads, what));
+    return SimulatedBed(std::make_unique<Impl>(continued(scene, checkpoint), plan, threads, what));
 }
 
 void SimulatedBed::Impl::go_on() {
@@ -52,9 +46,8 @@ void SimulatedBed::Impl::go_on() {
 
 void SimulatedBed::Impl::check_not_over() const {
     if (step >= plan.steps)
-        throw UserError(
-            fmt::format("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
-                        scene.where("run.duration"), step, plan.steps));
+        throw UserError("{}: the start is at step {} already and the run ends at step {}; raise run.duration",
+                        scene.where("run.duration"), step, plan.steps);
 }
 
 // Loads the sums of walls, and then the data of the observers. If these are missing, gathering begins here.

@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/measure/energy.hpp"
 #include "engine/measure/segregation/segregation.hpp"
 #include "engine/measure/walls/wall_faces.hpp"
@@ -298,13 +298,8 @@ std::optional<SimulatedBed> SimulatedBed::with_packing(const Scene& scene, const
                                                        PackingResult& result) {
     const std::optional<CheckpointLabel> label = label_of_checkpoint(file);
     if (!label || label->scene != key || label->step != 0) return std::nullopt;
-    Scene there = scene;
-    there.start = {};
-    there.start.method = Start::Method::file;
-    there.start.file = file.string();
-    there.start.keep_clock = true;
     try {
-        auto impl = std::make_unique<Impl>(there, plan, threads, Impl::Takes::packing);
+        auto impl = std::make_unique<Impl>(continued(scene, file), plan, threads, Impl::Takes::packing);
         result = impl->packed;
         return SimulatedBed(std::move(impl));
     } catch (const UserError&) {

@@ -323,12 +323,12 @@ void Feeder::check_patience(std::size_t feed, double time) const {
     const Feed& from = scene_.feeds[feed];
     const double waited = time - from.from - static_cast<double>(given_[feed] + 1) / from.rate;
     if (waited <= patience(scene_, kStepsPerLook * clock_.step)) return;
-    throw RunError(fmt::format(
+    throw RunError(
         "{}: at {:.6g} s grain {} of \"{}\" has waited {:.3g} s for a place where nothing is: where they "
         "appear it is full; lower the 'rate', end it earlier ('until', 'count'), or enlarge the box or "
         "the container",
         scene_.where(fmt::format("feed[{}]", feed)), time, given_[feed] + 1,
-        scene_.species[from.species].name, waited));
+        scene_.species[from.species].name, waited);
 }
 
 constexpr std::int64_t grains_a_thread =

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "engine/base/binary.hpp"
-#include "engine/measure/columns.hpp"
 #include "engine/measure/health.hpp"
 #include "engine/measure/observers.hpp"
 #include "engine/plan/plan.hpp"

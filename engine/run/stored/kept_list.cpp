@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <system_error>
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/run_names.hpp"
@@ -22,11 +22,6 @@ std::size_t first_from(const std::vector<State>& moments, std::int64_t step) {
         std::lower_bound(moments.begin(), moments.end(), step,
                          [](const State& moment, std::int64_t wanted) { return moment.step < wanted; });
     return static_cast<std::size_t>(place - moments.begin());
-}
-
-bool is_present(const std::filesystem::path& file) {
-    std::error_code ignored;
-    return std::filesystem::exists(file, ignored);
 }
 
 std::unique_ptr<StateArchive> open_moments(const std::filesystem::path& file) {
@@ -44,7 +39,7 @@ KeptList::KeptList(const StateArchive& trajectory, const Scene& scene, const Clo
 
 void KeptList::read_film() {
     const std::filesystem::path film = file(kFilmMoments);
-    if (!is_present(film)) return;
+    if (!is_there(film)) return;
     try {
         film_ = open_moments(film);
         check(*film_, film.string());
@@ -58,7 +53,7 @@ void KeptList::read_film() {
 
 void KeptList::read_keys() {
     const std::filesystem::path keys = file(kKeyMoments), contacts = file(kKeyContacts);
-    if (!is_present(keys)) return;
+    if (!is_there(keys)) return;
     try {
         if (key_contacts_.emplace(contacts).cut_off())
             key_faults_.push_back({fmt::format("{}: was cut off", contacts.string()), false});
@@ -100,9 +95,9 @@ void KeptList::check_grains_at_common_step(const StateArchive& file, const std::
             continue;  // the reader of this frame reports the damage
         }
         throw UserError(
-            fmt::format("{}: has other grains at step {} than the trajectory.nc beside it; they are of two "
-                        "runs",
-                        name, step));
+            "{}: has other grains at step {} than the trajectory.nc beside it; they are of two "
+            "runs",
+            name, step);
     }
 }
 

@@ -1,13 +1,12 @@
 // What lies beside the trajectory in a run's folder, as parts of StoredRun: contacts, measures, wear of
 // walls, what has flowed out, fields. What is wrong with a file becomes a Lack.
-#include <algorithm>
 #include <cmath>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/fields_file.hpp"
 #include "engine/files/folder_lock.hpp"
 #include "engine/files/frames/same_run.hpp"
@@ -45,8 +44,7 @@ void StoredRun::use_contacts() {
 
 void StoredRun::open_contacts() {
     const std::string name = name_of("contacts.nc");
-    std::error_code ignored;
-    if (!fs::exists(name, ignored)) {
+    if (!is_there(name)) {
         contacts_lack_ = Lack{.what = name + ": is missing"};
         return;
     }
@@ -90,9 +88,8 @@ std::optional<std::vector<SavedContact>> StoredRun::contacts(std::size_t index) 
 }
 
 std::shared_ptr<const FieldsReader> StoredRun::fields() const {
-    std::error_code ignored;
     if (!is_folder_) return frames_->fields();
-    if (!fs::exists(name_of("fields.nc"), ignored)) return nullptr;
+    if (!is_there(name_of("fields.nc"))) return nullptr;
     return std::make_shared<const FieldsReader>(name_of("fields.nc"));
 }
 
@@ -126,9 +123,7 @@ void StoredRun::check_contacts_of_run() const {
 std::optional<Lack> StoredRun::measures_lack() const {
     const std::string name = name_of("measures.csv");
     const std::vector<double> times = measures_ ? measures_->all("time_s") : std::vector<double>();
-    std::error_code ignored;
-    if (times.empty())
-        return Lack{.what = name + (fs::exists(name, ignored) ? ": holds no row" : ": is missing")};
+    if (times.empty()) return Lack{.what = name + (is_there(name) ? ": holds no row" : ": is missing")};
     const double interval = times.size() > 1 ? times.back() - times[times.size() - 2] : 0,
                  end = moments().back().time;
     if (times.back() >= end - 1.5 * interval - 1e-9) return std::nullopt;
@@ -171,9 +166,8 @@ std::optional<Lack> StoredRun::lack_of(Part part) const {
 
 void StoredRun::read_wear() const {
     if (std::exchange(wear_read_, true) || !is_folder_) return;
-    std::error_code ignored;
     const std::string name = name_of("fields.nc");
-    if (!fs::exists(name, ignored)) {
+    if (!is_there(name)) {
         wear_lack_ = Lack{.what = name + ": is missing"};
         return;
     }

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/same_run.hpp"
@@ -29,8 +31,7 @@ Clock clock_of_frames(const Scene& scene, const StateArchive& frames) {
 
 // Whether the folder of a run is there, and no reader of the calling program takes it.
 bool is_run_folder(const fs::path& path) {
-    std::error_code ignored;
-    if (!fs::is_directory(path, ignored)) return false;
+    if (!is_folder(path)) return false;
     FileStart head;
     head.path = path;
     head.folder = true;
@@ -87,11 +88,10 @@ void StoredRun::read_folder(const fs::path& folder, const StoredRunRequest& requ
     scene_ = *frames_->scene();
     const std::vector<std::string> damage = frames_->damage();
     if (moments().empty() && !damage.empty())
-        throw UserError(fmt::format("{} (and no other frame is whole)", damage.front()));
-    std::error_code ignored;
-    kind_ = fs::exists(folder / kImportNews, ignored) ? Kind::imported
-            : is_of_another_engine(folder)            ? Kind::elsewhere
-                                                      : Kind::ours;
+        throw UserError("{} (and no other frame is whole)", damage.front());
+    kind_ = is_there(folder / kImportNews) ? Kind::imported
+            : is_of_another_engine(folder) ? Kind::elsewhere
+                                           : Kind::ours;
     clock_ = clock_of_frames(scene_, *frames_);
     faults_ = frames_->news();
     if (!damage.empty()) {
@@ -175,8 +175,8 @@ std::optional<StoredMoment> StoredRun::at(std::int64_t step, bool with_contacts,
     }
     if (!brings_back(step) && damage) throw *damage;
     if (!brings_back(step))
-        throw UserError(fmt::format("{}: {:.6g} s was not kept, and cannot be brought back", path().string(),
-                                    clock_.time(step)));
+        throw UserError("{}: {:.6g} s was not kept, and cannot be brought back", path().string(),
+                        clock_.time(step));
     bool stopped = false;
     try {
         const SimulatedBed& run =
@@ -213,10 +213,10 @@ void StoredRun::prove(std::int64_t step, const ReplayWatcher& watcher) {
             continue;
         }
         if (proven_) return;
-        throw UserError(fmt::format(
+        throw UserError(
             "{}: brought back to {:.6g} s it has other grains than in trajectory.nc: its checkpoints are of "
             "another run, or do not hold all of it; --no-replay takes what was kept",
-            path().string(), moment.time));
+            path().string(), moment.time);
     }
 }
 
@@ -257,8 +257,7 @@ void StoredRun::check_all() {
         }
     }
     if (damaged.empty()) return;
-    if (damaged.size() == moments().size())
-        throw UserError(fmt::format("{} (and no other frame is whole)", first));
+    if (damaged.size() == moments().size()) throw UserError("{} (and no other frame is whole)", first);
     leave_out(damaged);
     faults_.push_back(damage_line(first, places));
 }
@@ -289,7 +288,7 @@ std::string StoredRun::damage_line(const std::string& first, const std::vector<s
 std::vector<std::string> StoredRun::all_news() const {
     std::vector<std::string> lines = news();
     for (std::string& line : faults())
-        if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(std::move(line));
+        if (!contains(lines, line)) lines.push_back(std::move(line));
     return lines;
 }
 

@@ -37,7 +37,7 @@ constexpr double closest_packing = 0.64;  // solid fraction of a random packing 
 constexpr double shortest_period = 2.5;
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
-    throw UserError(fmt::format("{}: '{}' {}", scene.where(key), name_of(key), what));
+    throw UserError("{}: '{}' {}", scene.where(key), name_of(key), what);
 }
 
 // Names that differ only in commas or quotes would share their columns of measures.csv.
@@ -46,9 +46,9 @@ void check_columns(const Scene& scene) {
     for (const MeasureColumn& column : scene.measurable.columns)
         if (!columns.insert(column.name).second)
             throw UserError(
-                fmt::format("{}: the names of the species give measures.csv the column \"{}\" twice; choose "
-                            "names that differ in letters",
-                            scene.where("species"), excerpt(column.name)));
+                "{}: the names of the species give measures.csv the column \"{}\" twice; choose "
+                "names that differ in letters",
+                scene.where("species"), excerpt(column.name));
 }
 
 void check_names(const Scene& scene) {
@@ -66,8 +66,8 @@ void check_names(const Scene& scene) {
     check_columns(scene);
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
     if (scene.grains() > most)
-        throw UserError(fmt::format("{}: {} grains are more than the {} that can be numbered; use fewer",
-                                    scene.where("species"), scene.grains(), most));
+        throw UserError("{}: {} grains are more than the {} that can be numbered; use fewer",
+                        scene.where("species"), scene.grains(), most);
 }
 
 void check_wedge(const Scene& scene) {
@@ -153,23 +153,22 @@ void check_room(const Scene& scene) {
         fail(scene, "start.region",
              "has no room to pack grains in: it lies outside the container or behind a plane; move it");
     if (room <= 0 && scene.walls.empty())
-        throw UserError(
-            fmt::format("{}: the meshes leave no room in the container to start layers in; move them",
-                        scene.where("mesh")));
+        throw UserError("{}: the meshes leave no room in the container to start layers in; move them",
+                        scene.where("mesh"));
     if (room <= 0)
         throw UserError(
-            fmt::format("{}: the planes leave no room in the container to start layers in; move "
-                        "them, or turn their normals towards the grains",
-                        scene.where("wall")));
+            "{}: the planes leave no room in the container to start layers in; move "
+            "them, or turn their normals towards the grains",
+            scene.where("wall"));
     if (solid > most_solid * room)
         throw UserError(
-            fmt::format("{}: {} grains of {:.4g} m3 fill {:.1f} % of the {}'s {:.4g} m3, more than the "
-                        "{:.0f} % that can be packed; use fewer or smaller grains, or a larger container",
-                        scene.where("species"), scene.grains_at_start(), solid, 100 * solid / room,
-                        scene.start.region                                                       ? "region"
-                        : scene.walls.empty() && scene.meshes.size() == (scene.vessel() ? 1 : 0) ? "container"
-                                                                                                 : "room",
-                        room, 100 * most_solid));
+            "{}: {} grains of {:.4g} m3 fill {:.1f} % of the {}'s {:.4g} m3, more than the "
+            "{:.0f} % that can be packed; use fewer or smaller grains, or a larger container",
+            scene.where("species"), scene.grains_at_start(), solid, 100 * solid / room,
+            scene.start.region                                                       ? "region"
+            : scene.walls.empty() && scene.meshes.size() == (scene.vessel() ? 1 : 0) ? "container"
+                                                                                     : "room",
+            room, 100 * most_solid);
 }
 
 // The grains of all feeds must find room, unless the scene has exits.
@@ -180,10 +179,10 @@ void check_feeds(const Scene& scene) {
     whole.start.region.reset();
     const double solid = solid_volume(scene), room = FreeSpace(whole).volume();
     if (solid > closest_packing * room)
-        throw UserError(fmt::format(
+        throw UserError(
             "{}: with what is fed, {} grains fill {:.1f} % of the container's {:.4g} m3, more than the "
             "{:.0f} % of a random close packing; feed fewer, end earlier, or take a larger container",
-            scene.where("feed"), scene.grains(), 100 * solid / room, room, 100 * closest_packing));
+            scene.where("feed"), scene.grains(), 100 * solid / room, room, 100 * closest_packing);
 }
 
 // Layers need something to lie on.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/lists.hpp"
 #include "engine/base/mathematics.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
@@ -41,7 +42,7 @@ const char* without_container(const C& container) {
 BoundKey<C>::Useless only_of(std::initializer_list<Shape> shapes, const char* reason) {
     return [shapes = std::vector<Shape>(shapes), reason](const C& container) -> const char* {
         if (const char* none = without_container(container)) return none;
-        const bool has = std::find(shapes.begin(), shapes.end(), container.shape) != shapes.end();
+        const bool has = contains(shapes, container.shape);
         return has ? nullptr : reason;
     };
 }

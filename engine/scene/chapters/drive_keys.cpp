@@ -203,7 +203,7 @@ constexpr double rounding = 1 + 1e-9;
 
 [[noreturn]] void fail(const Scene& scene, std::size_t stage, const char* key, const std::string& what) {
     const std::string path = fmt::format("drive.stage[{}].{}", stage, key);
-    throw UserError(fmt::format("{}: '{}' {}", scene.where(path), key, what));
+    throw UserError("{}: '{}' {}", scene.where(path), key, what);
 }
 
 void check_order(const Scene& scene) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/rotation.hpp"
 #include "engine/base/text.hpp"
 #include "engine/mesh/load_mesh.hpp"
@@ -83,12 +84,11 @@ std::string named_file(Document& document, const Scene& scene, const std::string
     const fs::path folder = fs::absolute(fs::path(scene.file)).parent_path().lexically_normal();
     if (const std::string wrong = complaint_of_utf8((folder / file).string()); !wrong.empty())
         document.fail(path, fmt::format("lies at {}; rename the folder", wrong));
-    std::error_code ignored;
     const bool of_checkpoint = fs::path(scene.file).extension() == ".grs";
     constexpr int most_above = 2;
     fs::path from = folder;
     for (int above = 0; above <= (of_checkpoint ? most_above : 0); ++above, from = from.parent_path())
-        if (fs::exists(from / file, ignored)) return (from / file).lexically_normal().string();
+        if (is_there(from / file)) return (from / file).lexically_normal().string();
     document.fail(path, fmt::format("names {}, which does not exist; {}",
                                     excerpt((folder / file).lexically_normal().string(), kLongestPath),
                                     of_checkpoint ? "keep a checkpoint in the folder of its run"

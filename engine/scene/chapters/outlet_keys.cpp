@@ -70,7 +70,7 @@ void read_outlet(Document& document, const Scene& scene, const std::string& path
 }
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
-    throw UserError(fmt::format("{}: '{}' {}", scene.where("container.outlet." + key), key, what));
+    throw UserError("{}: '{}' {}", scene.where("container.outlet." + key), key, what);
 }
 
 void check_shape(const Scene& scene, const std::string& size) {
@@ -159,7 +159,7 @@ void read_tray(Document& document, const Scene& scene, const std::string& path, 
 }
 
 [[noreturn]] void fail_tray(const Scene& scene, const std::string& key, const std::string& what) {
-    throw UserError(fmt::format("{}: '{}' {}", scene.where("container.tray." + key), key, what));
+    throw UserError("{}: '{}' {}", scene.where("container.tray." + key), key, what);
 }
 
 }  // namespace
@@ -179,9 +179,8 @@ void check_tray(const Scene& scene) {
     const Container& c = scene.container;
     if (!c.tray) return;
     if (!c.outlet)
-        throw UserError(
-            fmt::format("{}: 'tray' is of no use below a closed floor; add 'outlet', or remove it",
-                        scene.where("container.tray")));
+        throw UserError("{}: 'tray' is of no use below a closed floor; add 'outlet', or remove it",
+                        scene.where("container.tray"));
     if (clearly_less(c.tray->half_width, c.floor_half_width()))
         fail_tray(scene, "width",
                   fmt::format("of {:.6g} m is less than that of the container's floor, {:.6g} m; widen it",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/base/lists.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/chapters/chapters.hpp"
@@ -114,11 +115,11 @@ std::string checkpoints_text(const Output& from, const Scene&) {
 void read_also(Document& document, const Scene&, const std::string& path, Output& into) {
     into.also = {};
     for (const std::string& name : document.name_list(path)) {
-        const auto found = std::find(kAlsoFormats.begin(), kAlsoFormats.end(), name);
-        if (found == kAlsoFormats.end())
+        const std::optional<std::size_t> format = place_in(kAlsoFormats, name);
+        if (!format)
             document.fail(path, fmt::format("names \"{}\", which is no format; there is {}", excerpt(name),
                                             fmt::join(kAlsoFormats, ", ")));
-        into.also.add(static_cast<std::size_t>(found - kAlsoFormats.begin()));
+        into.also.add(*format);
     }
 }
 

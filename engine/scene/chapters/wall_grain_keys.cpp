@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/bed.hpp"
@@ -91,7 +92,7 @@ const KeyTable<W>& layer_table() {
 }
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const std::string& what) {
-    throw UserError(fmt::format("{}: '{}' {}", scene.where("container.wall_grains." + key), key, what));
+    throw UserError("{}: '{}' {}", scene.where("container.wall_grains." + key), key, what);
 }
 
 void read_layer(Document& document, const Scene& scene, const std::string& path, Container& container) {
@@ -112,11 +113,11 @@ void check_faces(const Scene& scene) {
     const std::vector<std::string> there = faces_of(scene.container);
     std::vector<std::string> taken;
     for (const std::string& face : scene.container.wall_grains->faces) {
-        if (std::find(there.begin(), there.end(), face) == there.end())
+        if (!contains(there, face))
             fail(scene, "faces",
                  fmt::format("names \"{}\", which is no face of this container; there is {}",
                              excerpt(with(face, ' ', '_')), fmt::join(written(there), ", ")));
-        if (std::find(taken.begin(), taken.end(), face) != taken.end())
+        if (contains(taken, face))
             fail(scene, "faces", fmt::format("names \"{}\" twice; take one out", with(face, ' ', '_')));
         taken.push_back(face);
     }
@@ -174,9 +175,8 @@ void check_room(const Scene& scene) {
     const W& layer = *scene.container.wall_grains;
     const double largest = scene.species[layer.species].diameter.largest, free = largest_free(scene);
     const auto taken_at = [&](const std::vector<std::string>& side) {
-        const bool rough = std::any_of(side.begin(), side.end(), [&](const std::string& face) {
-            return std::find(layer.faces.begin(), layer.faces.end(), face) != layer.faces.end();
-        });
+        const bool rough = std::any_of(side.begin(), side.end(),
+                                       [&](const std::string& face) { return contains(layer.faces, face); });
         return rough ? 0.5 * largest : 0;
     };
     for (const Room& room : rooms_of(scene.container)) {

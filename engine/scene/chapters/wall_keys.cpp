@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <cmath>
-#include <optional>
 
 #include "engine/base/error.hpp"
 #include "engine/base/mathematics.hpp"
@@ -61,7 +60,7 @@ namespace {
 
 [[noreturn]] void fail_at(const Scene& scene, std::size_t wall, const char* key, const std::string& what) {
     const std::string path = fmt::format("wall[{}].{}", wall, key);
-    throw UserError(fmt::format("{}: '{}' {}", scene.where(path), name_of(path), what));
+    throw UserError("{}: '{}' {}", scene.where(path), name_of(path), what);
 }
 
 // In a container with a periodic depth a plane must be the same after each period along x, so its normal may

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/keys/keys.hpp"
 
@@ -22,9 +23,9 @@ void check_utf8(std::string_view text, const std::string& file) {
     if (!bad) return;
     const std::string_view before = text.substr(0, *bad);
     const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
-    throw UserError(fmt::format("{}:{}:{}: the byte 0x{:02x} is not UTF-8; save the file as UTF-8", file,
-                                std::count(before.begin(), before.end(), '\n') + 1, *bad - start + 1,
-                                static_cast<unsigned char>(text[*bad])));
+    throw UserError("{}:{}:{}: the byte 0x{:02x} is not UTF-8; save the file as UTF-8", file,
+                    std::count(before.begin(), before.end(), '\n') + 1, *bad - start + 1,
+                    static_cast<unsigned char>(text[*bad]));
 }
 
 // Whether a comma stands between two digits at that place, which a TOML parser does not expect.
@@ -51,8 +52,8 @@ toml::table parse(std::string_view text, const std::string& file) {
         const char* advice = is_decimal_comma(text, place)
                                  ? "a number has a point in place of the comma, as in 9.5"
                                  : "text and quantities with units want quotes";
-        throw UserError(fmt::format("{}:{}:{}: this is not TOML ({}); {}", file, place.line, place.column,
-                                    excerpt(what, most_of_parser), advice));
+        throw UserError("{}:{}:{}: this is not TOML ({}); {}", file, place.line, place.column,
+                        excerpt(what, most_of_parser), advice);
     }
 }
 
@@ -94,14 +95,14 @@ bool Document::from_command_line(const std::string& path) const {
 }
 
 void Document::fail(const std::string& path, const std::string& what) const {
-    throw UserError(fmt::format("{}: '{}' {}", place(path), excerpt(name_of(path)), what));
+    throw UserError("{}: '{}' {}", place(path), excerpt(name_of(path)), what);
 }
 
 void Document::fail_missing(const std::string& path) const {
     const std::string table = parent_of(path);
     const Key* key = find_key(path, *keys_);
-    throw UserError(fmt::format("{}: {} lacks '{}'; write for example {} = {}", place(table), table_of(path),
-                                name_of(path), name_of(path), key->example()));
+    throw UserError("{}: {} lacks '{}'; write for example {} = {}", place(table), table_of(path),
+                    name_of(path), name_of(path), key->example());
 }
 
 void Document::refuse(const std::string& path, const std::string& reason) const {
@@ -268,7 +269,7 @@ std::optional<std::string> Document::text(const std::string& path) {
         fail(path,
              fmt::format("has {} characters, and the most are {}; shorten it", letters, key.most_letters));
     const auto& known = key.choices;
-    if (key.kind == KeyKind::choice && std::find(known.begin(), known.end(), *value) == known.end())
+    if (key.kind == KeyKind::choice && !contains(known, *value))
         fail(path,
              fmt::format("must be \"{}\", but is {}", fmt::join(known, "\" or \""), written_value(*node)));
     return value;

@@ -81,20 +81,19 @@ toml::node* Document::step_into(toml::node& node, const std::string& part, const
         if (const toml::table* entry = element.as_table())
             if (const auto name = entry->at_path("name").value<std::string>()) names.push_back(*name);
     if (is_index || names.empty())
-        throw UserError(
-            fmt::format("{}: there is no '{}' among the {}; they count from 0", by, excerpt(part),
-                        array->size() == 1 ? "1 entry" : fmt::format("{} entries", array->size())));
+        throw UserError("{}: there is no '{}' among the {}; they count from 0", by, excerpt(part),
+                        array->size() == 1 ? "1 entry" : fmt::format("{} entries", array->size()));
     const std::optional<std::string> meant = nearest_name(part, names);
     constexpr std::size_t most_named = 300;  // characters
-    throw UserError(fmt::format("{}: there is no '{}'; {}there are {}", by, excerpt(part),
-                                meant ? fmt::format("did you mean '{}'? ", excerpt(*meant)) : "",
-                                excerpt(fmt::format("{}", fmt::join(names, ", ")), most_named)));
+    throw UserError("{}: there is no '{}'; {}there are {}", by, excerpt(part),
+                    meant ? fmt::format("did you mean '{}'? ", excerpt(*meant)) : "",
+                    excerpt(fmt::format("{}", fmt::join(names, ", ")), most_named));
 }
 
 namespace {
 
 [[noreturn]] void fail_not_a_table(const std::string& path, const Location& by) {
-    throw UserError(fmt::format("{}: '{}' is not a table; name one of its own keys", by.file, excerpt(path)));
+    throw UserError("{}: '{}' is not a table; name one of its own keys", by.file, excerpt(path));
 }
 
 }  // namespace
@@ -166,9 +165,9 @@ void Document::remove_rivals(toml::table& table, const std::string& path, const 
         const auto given = written_.find(other);
         if (table.contains(rival) && given != written_.end() && given->second.line == 0 &&
             source_of(given->second.file) == source_of(place))
-            throw UserError(fmt::format(
-                "{}: '{}' and '{}' exclude each other, and both are set{}; leave out one", place, path, other,
-                given->second.file == place ? "" : fmt::format(" ({})", given->second.file)));
+            throw UserError("{}: '{}' and '{}' exclude each other, and both are set{}; leave out one", place,
+                            path, other,
+                            given->second.file == place ? "" : fmt::format(" ({})", given->second.file));
         remove(table, parent_of(path), rival);
     }
 }
@@ -176,10 +175,10 @@ void Document::remove_rivals(toml::table& table, const std::string& path, const 
 void Document::set(const Assignment& assignment) {
     const std::string place = assignment.place();
     if (const std::string wrong = complaint_of_utf8(assignment.text); !wrong.empty())
-        throw UserError(fmt::format("{}: {}; type it in a UTF-8 terminal", place, wrong));
+        throw UserError("{}: {}; type it in a UTF-8 terminal", place, wrong);
     const std::vector<std::string> parts = parts_of(assignment.key());
     if (assignment.text.find('=') == std::string::npos || parts.empty())
-        throw UserError(fmt::format("{}: no assignment; write --set drive.frequency=\"30 Hz\"", place));
+        throw UserError("{}: no assignment; write --set drive.frequency=\"30 Hz\"", place);
 
     const Location by{place, 0, 0};
     const auto [table, table_path] = table_for(parts, by);
@@ -237,9 +236,8 @@ void Document::check_entry(const std::string& path, const toml::node& node) cons
         return check_table(path, *node.as_table());
     }
     const std::string table = table_of(path);
-    throw UserError(fmt::format("{}: unknown key '{}' {} {}; {}", place(path), excerpt(name_of(path)),
-                                table.front() == '[' ? "in" : "at", excerpt(table),
-                                advice_for_unknown_key(path, *keys_)));
+    throw UserError("{}: unknown key '{}' {} {}; {}", place(path), excerpt(name_of(path)),
+                    table.front() == '[' ? "in" : "at", excerpt(table), advice_for_unknown_key(path, *keys_));
 }
 
 void Document::check_all_read() const {

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/lists.hpp"
+
 namespace grainreel {
 
 namespace {
@@ -197,9 +199,7 @@ const Key* chooser_of(const Table& table, const std::vector<std::string>& words)
     for (const Table& inner : table.inside) {
         if (inner.key == nullptr || inner.key->kind != KeyKind::choice) continue;
         const std::vector<std::string>& choices = inner.key->choices;
-        const auto is_choice = [&](const std::string& word) {
-            return std::find(choices.begin(), choices.end(), word) != choices.end();
-        };
+        const auto is_choice = [&](const std::string& word) { return contains(choices, word); };
         if (std::all_of(words.begin(), words.end(), is_choice)) return inner.key;
     }
     return nullptr;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/lists.hpp"
 #include "engine/base/text.hpp"
 
 namespace grainreel {
@@ -32,7 +33,7 @@ std::vector<std::string> names_inside(const std::string& table, const std::vecto
         if (key.path.compare(0, start.size(), start) != 0) continue;
         std::string name = key.path.substr(start.size());
         name = name.substr(0, name.find_first_of(".["));
-        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        if (!contains(names, name)) names.push_back(name);
     }
     return names;
 }
@@ -159,8 +160,7 @@ std::vector<std::string> rivals_of(std::string_view path, const std::vector<Key>
         if (parent_of(key.path) != parent_of(pattern)) continue;
         if (key.path == pattern) rivals.insert(rivals.end(), key.excludes.begin(), key.excludes.end());
         const auto& others = key.excludes;
-        if (std::find(others.begin(), others.end(), name) != others.end())
-            rivals.push_back(name_of(key.path));
+        if (contains(others, name)) rivals.push_back(name_of(key.path));
     }
     return rivals;
 }

@@ -17,7 +17,6 @@
 
 #include "engine/state/grains.hpp"
 #include "engine/step/geometry/patches.hpp"
-#include "engine/step/lists/contact_rules.hpp"
 #include "engine/step/lists/histories.hpp"
 #include "engine/step/lists/screen_watch.hpp"
 

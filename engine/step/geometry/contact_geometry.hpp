@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "engine/laws/law_kernel.hpp"
 #include "engine/plan/plan.hpp"

@@ -1,7 +1,6 @@
 #include "engine/step/geometry/patches.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

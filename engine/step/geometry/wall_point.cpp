@@ -1,7 +1,5 @@
 #include "engine/step/geometry/wall_point.hpp"
 
-#include <cmath>
-
 namespace grainreel {
 
 namespace {

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "engine/step/geometry/contact_geometry.hpp"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/base/binary.hpp"
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/candidates.hpp"
 #include "engine/step/lists/change_owners.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/laws/law_kernel.hpp"
 
 namespace grainreel {

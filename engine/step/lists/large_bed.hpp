@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/laws/law_kernel.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/lists/contact_table.hpp"

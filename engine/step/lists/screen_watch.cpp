@@ -1,7 +1,6 @@
 #include "engine/step/lists/screen_watch.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "engine/base/numbers.hpp"
@@ -67,10 +66,7 @@ class Watcher {
     static constexpr std::int32_t kNone = -1;
 
     std::int32_t faces() const { return static_cast<std::int32_t>(nearby_.faces.size()); }
-    const MeshNear& near_of(const Side& side) const {
-        return contacts_.meshes[static_cast<std::size_t>(side.group)]
-            .near[static_cast<std::size_t>(side.place)];
-    }
+    const MeshNear& near_of(const Side& side) const { return contacts_.meshes[side.group].near[side.place]; }
 
     void list_grains();
     void list_sides();
@@ -78,7 +74,7 @@ class Watcher {
     void gather(std::int32_t grain, std::vector<WallNeighbour>::const_iterator& wall);
     bool may_screen() const;
     void list_pairs();
-    bool has_side(std::int32_t grain) const { return first_side_[static_cast<std::size_t>(grain)] != kNone; }
+    bool has_side(std::int32_t grain) const { return first_side_[grain] != kNone; }
     bool may_stand_between(std::int32_t grain, const Vec3& to_other) const;
     bool may_cross_any(const Side& side, std::int32_t grain, const Vec3& other) const;
     bool may_cross(const Surface& surface, std::int32_t triangle, const Vec3& from, const Vec3& to) const;

@@ -7,13 +7,12 @@
 // change_owners.hpp when grains get other owners or leave.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/laws/law_kernel.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/lists/contact_rules.hpp"

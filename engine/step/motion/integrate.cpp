@@ -1,7 +1,5 @@
 #include "engine/step/motion/integrate.hpp"
 
-#include <algorithm>
-
 #include "engine/base/rotation.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/laws/law_kernel.hpp"
 
 namespace grainreel {

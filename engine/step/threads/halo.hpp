@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/laws/law_kernel.hpp"
 #include "engine/state/grains.hpp"
 #include "engine/step/motion/integrate.hpp"

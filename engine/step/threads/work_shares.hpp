@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/base/team.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "engine/step/threads/halo.hpp"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "render/app/options/option_groups.hpp"
 #include "render/film/run/still.hpp"
@@ -39,7 +39,7 @@ class Notes final : public SilentListener {
 
 // A number of the question; null stands for one that is not known.
 double number_of(const Json& value) {
-    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+    return value.is_null() ? kUnknown : value.get<double>();
 }
 
 // Sorts the values by their ids.
@@ -77,13 +77,12 @@ OwnColours own_colours(const Json& asked) {
     const std::string map = asked.value("map", "viridis");
     const auto known = std::find_if(colour_map_words.begin(), colour_map_words.end(),
                                     [&](const auto& word) { return word.first == map; });
-    if (known == colour_map_words.end())
-        throw UserError(fmt::format("film.colour.map: there is no map {}", excerpt(map)));
+    if (known == colour_map_words.end()) throw UserError("film.colour.map: there is no map {}", excerpt(map));
     own.colouring.map = known->second;
     for (const Json& value : asked.at("value")) own.value.push_back(number_of(value));
     if (asked.contains("id")) own.id = asked.at("id").get<std::vector<std::int32_t>>();
     if (!own.id.empty() && own.id.size() != own.value.size())
-        throw UserError(fmt::format("colour: has {} ids and {} values", own.id.size(), own.value.size()));
+        throw UserError("colour: has {} ids and {} values", own.id.size(), own.value.size());
     sort_by_id(own);
     return own;
 }

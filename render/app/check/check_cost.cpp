@@ -8,7 +8,7 @@
 #include <queue>
 
 #include "engine/base/counted.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/scene/text/units.hpp"

@@ -1,7 +1,6 @@
 // Estimates what a study will cost. A study runs members: each of its settings with several seeds.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "engine/plan/plan.hpp"

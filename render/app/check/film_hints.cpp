@@ -4,15 +4,12 @@
 
 #include <algorithm>
 
+#include "engine/base/lists.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
 namespace {
-
-bool is_among(const std::vector<std::size_t>& list, std::size_t species) {
-    return std::find(list.begin(), list.end(), species) != list.end();
-}
 
 // Whether the species is an intruder: a few large grains among many smaller ones, which are in front of it.
 bool may_be_buried(const FilmedScene& scene, std::size_t intruder, std::vector<std::size_t>& before) {
@@ -40,10 +37,10 @@ std::vector<std::string> film_hints(const FilmedScene& scene) {
     if (scene.film.look.cut.present) return hints;
     for (std::size_t i = 0; i < scene.species.size(); ++i) {
         std::vector<std::size_t> before;
-        if (is_among(shows.hidden, i) || is_among(shows.ghosts, i) || !may_be_buried(scene, i, before))
+        if (contains(shows.hidden, i) || contains(shows.ghosts, i) || !may_be_buried(scene, i, before))
             continue;
         std::erase_if(before, [&](std::size_t one) {
-            return is_among(shows.ghosts, one) || is_among(shows.hidden, one);
+            return contains(shows.ghosts, one) || contains(shows.hidden, one);
         });
         if (before.empty()) continue;
         std::string names;

@@ -4,14 +4,12 @@
 #include <sys/resource.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <vector>
 
-#include "engine/base/error.hpp"
-#include "engine/base/own_folder.hpp"
 #include "engine/base/random.hpp"
+#include "engine/base/system/own_folder.hpp"
 #include "engine/base/team.hpp"
 #include "engine/lab/bench/bench_run.hpp"
 #include "engine/mesh/room.hpp"

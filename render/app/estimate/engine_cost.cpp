@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/base/lists.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/plan/plan_bed.hpp"
 #include "engine/scene/bed.hpp"
@@ -163,9 +164,7 @@ double packing_cost(const FilmedScene& scene, const Plan& plan, double& steps) {
 double measuring_cost(const FilmedScene& scene, const Plan& plan, double grains, double contacts) {
     const auto steps = static_cast<double>(plan.steps);
     const std::vector<std::string> instruments = scene.instruments();
-    const auto has = [&](const char* one) {
-        return std::find(instruments.begin(), instruments.end(), one) != instruments.end();
-    };
+    const auto has = [&](const char* one) { return contains(instruments, one); };
     const bool balance = has("energy_balance");
     const double others = static_cast<double>(instruments.size()) - (balance ? 1 : 0);
     double cost =

@@ -1,15 +1,13 @@
 #include "render/app/estimate/speed_cache.hpp"
 
 #include <fmt/format.h>
-#include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/own_folder.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/system/own_folder.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/vector/instructions.hpp"
 #include "render/app/messages/version.hpp"
@@ -76,13 +74,13 @@ void SpeedCache::read() {
 }
 
 std::optional<double> SpeedCache::engine(int threads) const {
-    const auto found = engine_.find(threads);
-    return found == engine_.end() ? std::nullopt : std::optional(found->second);
+    const auto speed = engine_.find(threads);
+    return speed == engine_.end() ? std::nullopt : std::optional(speed->second);
 }
 
 std::optional<FilmSpeed> SpeedCache::film(const std::string& look) const {
-    const auto found = films_.find(look);
-    return found == films_.end() ? std::nullopt : std::optional(found->second);
+    const auto speed = films_.find(look);
+    return speed == films_.end() ? std::nullopt : std::optional(speed->second);
 }
 
 void SpeedCache::keep_engine(int threads, double grain_steps) {

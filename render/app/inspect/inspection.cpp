@@ -1,22 +1,21 @@
 #include "render/app/inspect/inspection.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <memory>
 
 #include <fmt/format.h>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/damage.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/questions/contact_questions.hpp"
 #include "engine/questions/discharge.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 #include "engine/questions/field_means.hpp"
-#include "engine/questions/grain_columns.hpp"
 #include "engine/questions/questions.hpp"
 #include "engine/questions/run_parameters.hpp"
 #include "engine/questions/statistics.hpp"
@@ -67,7 +66,7 @@ class Inspection {
 
     bool takes_in_series(Needs what) const {
         const std::vector<Needs> all = needs_of(*asks_.where + " " + asks_.mean);
-        return std::find(all.begin(), all.end(), what) != all.end();
+        return contains(all, what);
     }
 
     Answer single_answer(StoredRun& run, Reporter& reporter) {
@@ -96,7 +95,6 @@ class Inspection {
     }
 
     void open(Reporter& reporter) {
-        std::error_code ignored;
         const bool foreign = is_foreign(asks_.run);
         check_reading(asks_.run, asks_.reading);
         if (!foreign) refuse_other_folder(asks_.run);
@@ -105,7 +103,7 @@ class Inspection {
         // out.
         asks_.reading.one = true;
         if (foreign && asks_.draws()) return open_import(reporter);
-        if (!foreign && !fs::is_regular_file(asks_.run, ignored)) folder_of_run(asks_.run);
+        if (!foreign && !is_plain(asks_.run)) folder_of_run(asks_.run);
         open_run(asks_.run);
         // Our own trajectory without its folder does not count as a file of another program here.
         foreign_ = asked_.run->kind() == StoredRun::Kind::foreign;
@@ -134,7 +132,7 @@ class Inspection {
     void tell_news(const StoredRun& run, Reporter& reporter) {
         const std::vector<std::string> faults = run.faults();
         for (const std::string& line : run.news()) {
-            if (std::find(faults.begin(), faults.end(), line) == faults.end()) reporter.detail(line);
+            if (!contains(faults, line)) reporter.detail(line);
             if (!fs::is_directory(asks_.run)) missing_.push_back(line);
         }
         for (const auto& lines : {faults, run.checkpoint_news()})
@@ -160,7 +158,7 @@ class Inspection {
     bool takes(Needs what) const {
         const std::vector<Needs> all =
             needs_of(asks_.where.value_or("") + " " + asks_.histogram.value_or(""));
-        return std::find(all.begin(), all.end(), what) != all.end();
+        return contains(all, what);
     }
 
     // Whether the moment must be simulated again: the run did not keep it, or kept it without what is asked
@@ -224,23 +222,21 @@ class Inspection {
     // simulated again.
     void check_known(const AskedMoment& asked, const StoredRun& run) const {
         if (asks_for_forces())
-            throw UserError(
-                fmt::format("{}: {}: forces on walls and overlaps are known of runs of our own engine alone",
-                            asks_.wall ? "--wall" : "--largest-overlap", asks_.run.string()));
+            throw UserError("{}: {}: forces on walls and overlaps are known of runs of our own engine alone",
+                            asks_.wall ? "--wall" : "--largest-overlap", asks_.run.string());
         if (elsewhere_ && takes(Needs::contacts))
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}: another engine computed the run, and its dumps have no contacts; --help lists "
                 "the quantities that are always known, without a *",
-                asks_.run.string()));
+                asks_.run.string());
         if (takes(Needs::contacts) && !run.has_contacts_of(asked.nearest))
-            throw UserError(
-                fmt::format("{}: says no contacts of that moment; name a file that has them by --contacts",
-                            asks_.run.string()));
+            throw UserError("{}: says no contacts of that moment; name a file that has them by --contacts",
+                            asks_.run.string());
         if (takes(Needs::forces) || takes(Needs::period))
             throw UserError(
-                fmt::format("{}: a quantity that is asked for is known of runs of our own engine alone; "
-                            "--help lists the others, without a *",
-                            asks_.run.string()));
+                "{}: a quantity that is asked for is known of runs of our own engine alone; "
+                "--help lists the others, without a *",
+                asks_.run.string());
     }
 
     static ReplayWatcher watcher_of(Reporter& reporter) {
@@ -275,11 +271,11 @@ class Inspection {
                 mean.add(answer_of(run, snapshot, reporter), snapshot.frame.time);
         });
         if (moments == 0)
-            throw UserError(fmt::format("--average: {} kept no moment in the {} before {:.6g} s",
-                                        run.path().string(), counted(*asks_.average, "period"), asked.time));
+            throw UserError("--average: {} kept no moment in the {} before {:.6g} s", run.path().string(),
+                            counted(*asks_.average, "period"), asked.time);
         if (without_grain == moments)
-            throw UserError(fmt::format("--grain: no grain has the id {} at any of the {} moments",
-                                        *asks_.grain, moments));
+            throw UserError("--grain: no grain has the id {} at any of the {} moments", *asks_.grain,
+                            moments);
         Answer answer = histogram
                             ? named("--histogram",
                                     [&] { return histogram->answer(static_cast<std::size_t>(asks_.bins)); })
@@ -313,7 +309,7 @@ class Inspection {
                 Answer there = PixelPicker(snapshot, asked_.scene, film_time())
                                    .at(asks_.pixel[0], asks_.pixel[1], asks_.through);
                 if (there.tables[0].rows.empty())
-                    throw UserError(fmt::format("nothing is at {:g},{:g}", asks_.pixel[0], asks_.pixel[1]));
+                    throw UserError("nothing is at {:g},{:g}", asks_.pixel[0], asks_.pixel[1]);
                 return there;
             });
         if (asks_.pairs)
@@ -334,7 +330,7 @@ class Inspection {
         try {
             return ask();
         } catch (const UserError& mistake) {
-            throw UserError(fmt::format("{}: {}", option, mistake.what()));
+            throw UserError("{}: {}", option, mistake.what());
         }
     }
 

@@ -265,7 +265,7 @@ void close_results() {
     if (std::fflush(stdout) != 0) note_error();
     // EPIPE is no failure: a reader such as `head` has read what it wanted.
     if (first_error != 0 && first_error != EPIPE)
-        throw RunError(fmt::format("stdout: cannot be written: {}", std::strerror(first_error)));
+        throw RunError("stdout: cannot be written: {}", std::strerror(first_error));
 }
 
 int tell_folder(const FolderJob::Ended& ended, const FilmRequest& request) {

@@ -21,7 +21,7 @@ extern "C" {
 #include <libswscale/version.h>
 }
 
-#include "engine/base/own_files.hpp"
+#include "engine/base/system/own_files.hpp"
 #include "engine/files/netcdf/netcdf_file.hpp"
 #include "engine/vector/instructions.hpp"
 

@@ -23,8 +23,7 @@ std::optional<std::string> variable(const char* name) {
 gl::Provider provider_of(const std::string& word, const std::string& said_by) {
     if (word == "osmesa") return gl::Provider::osmesa;
     if (word == "egl") return gl::Provider::egl;
-    throw UserError(
-        fmt::format("{}={}: no such maker of OpenGL contexts; choose osmesa or egl", said_by, excerpt(word)));
+    throw UserError("{}={}: no such maker of OpenGL contexts; choose osmesa or egl", said_by, excerpt(word));
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ CLI::Validator not_empty() {
 
 void check_typed(const std::string& option, const std::string& text) {
     if (const std::string wrong = complaint_of_utf8(text); !wrong.empty())
-        throw UserError(fmt::format("{}: {}; type it in a UTF-8 terminal", option, wrong));
+        throw UserError("{}: {}; type it in a UTF-8 terminal", option, wrong);
 }
 
 std::filesystem::path output_base() {
@@ -54,22 +53,16 @@ std::filesystem::path output_base() {
 }
 
 void check_folder_name(const std::filesystem::path& out) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(out, ignored)) return;
+    if (is_folder(out)) return;
     const std::string end = out.extension().string();
     for (const char* one : {".png", ".mp4", ".webm", ".mkv", ".gif", ".y4m", ".pdf"})
         if (end == one)
-            throw UserError(
-                fmt::format("--out {}: names the folder, in which the files are made; give a name without {}",
-                            out.string(), end));
+            throw UserError("--out {}: names the folder, in which the files are made; give a name without {}",
+                            out.string(), end);
 }
 
 void add_out_folder(CLI::App& verb, std::optional<std::filesystem::path>& out, const std::string& about) {
-    const auto take = [&out](const std::string& folder) {
-        check_typed("--out", folder);
-        out = folder;
-    };
-    verb.add_option_function<std::string>("--out", take, about)->type_name("DIR");
+    add_typed(verb, "--out", out, about, "DIR");
 }
 
 void add_print_size(CLI::App& verb, PrintSize& print) {
@@ -88,11 +81,11 @@ void add_print_size(CLI::App& verb, PrintSize& print) {
 
 void check_print_size(const PrintSize& print, bool one_picture, const char* moment) {
     if (!one_picture && print.wanted())
-        throw UserError(fmt::format("{}: is for one picture; add {}",
-                                    print.pdf   ? "--pdf"
-                                    : print.dpi ? "--dpi"
-                                                : "--width-mm",
-                                    moment));
+        throw UserError("{}: is for one picture; add {}",
+                        print.pdf   ? "--pdf"
+                        : print.dpi ? "--dpi"
+                                    : "--width-mm",
+                        moment);
 }
 
 void add_film(CLI::App& verb, FilmRequest& film, const std::string& about_out) {
@@ -120,7 +113,7 @@ CLI::Option* add_no_cache(CLI::App& verb, std::optional<double>& shortest) {
     shortest = worth_a_file;
     if (const auto word = variable("GRAINREEL_PACKINGS")) {
         if (*word != "off" && *word != "all")
-            throw UserError(fmt::format("GRAINREEL_PACKINGS={}: is neither off nor all", excerpt(*word)));
+            throw UserError("GRAINREEL_PACKINGS={}: is neither off nor all", excerpt(*word));
         shortest = *word == "all" ? std::optional(0.0) : std::nullopt;
     }
     return verb.add_flag_callback(
@@ -140,7 +133,7 @@ CLI::Option* add_time(CLI::App& verb, const char* flag, std::optional<double>& i
                     const bool bare = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
                     into = parse_quantity(bare ? text + " s" : text, Dimension::time);
                 } catch (const UserError& mistake) {
-                    throw UserError(fmt::format("{} {}", flag, mistake.what()));
+                    throw UserError("{} {}", flag, mistake.what());
                 }
             },
             about)
@@ -165,35 +158,25 @@ std::string triple(const Vec3& v) {
 }  // namespace
 
 void add_camera_file(CLI::App& verb, CameraFiles& files, CameraOptions which) {
-    const auto add = [&](const char* flag, std::optional<fs::path>& into, const char* about) {
-        verb.add_option_function<std::string>(
-                flag,
-                [flag, &into](const std::string& text) {
-                    check_typed(flag, text);
-                    into = text;
-                },
-                about)
-            ->type_name("FILE")
-            ->check(not_empty());
-    };
-    add("--camera", files.use, "Take the camera from this file, which --keep-camera wrote");
+    add_typed(verb, "--camera", files.use, "Take the camera from this file, which --keep-camera wrote",
+              "FILE")
+        ->check(not_empty());
     if (which == CameraOptions::use_and_keep)
-        add("--keep-camera", files.keep, "Write the camera to a file, for --camera with other runs");
+        add_typed(verb, "--keep-camera", files.keep,
+                  "Write the camera to a file, for --camera with other runs", "FILE")
+            ->check(not_empty());
 }
 
 void use_camera_file(const CameraFiles& files, Assignments& sets) {
     if (!files.use) return;
     std::ifstream in = read_plain(*files.use);
-    if (!in)
-        throw UserError(
-            fmt::format("--camera {}: cannot be opened; is there such a file?", files.use->string()));
+    if (!in) throw UserError("--camera {}: cannot be opened; is there such a file?", files.use->string());
     constexpr int most_lines = 100;
     Assignments all;
     int number = 0;
     for (std::string line; std::getline(in, line);) {
         const std::string place = fmt::format("{}:{}", files.use->string(), ++number);
-        if (number > most_lines)
-            throw UserError(fmt::format("{}: is no file of a camera, which has few lines", place));
+        if (number > most_lines) throw UserError("{}: is no file of a camera, which has few lines", place);
         line = trimmed(line.substr(0, line.find('#')));
         if (line.empty() || line == "[film.camera]") continue;
         const std::size_t equals = line.find('=');
@@ -201,25 +184,20 @@ void use_camera_file(const CameraFiles& files, Assignments& sets) {
         const bool plain = equals != std::string::npos && !key.empty() &&
                            key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string::npos;
         if (!plain)
-            throw UserError(fmt::format("{}: '{}' is no key of a camera; a line is like: azimuth = 20", place,
-                                        excerpt(line)));
+            throw UserError("{}: '{}' is no key of a camera; a line is like: azimuth = 20", place,
+                            excerpt(line));
         all.push_back({fmt::format("film.camera.{}={}", key, trimmed(line.substr(equals + 1))), place});
     }
-    if (all.empty()) throw UserError(fmt::format("--camera {}: has no key of a camera", files.use->string()));
+    if (all.empty()) throw UserError("--camera {}: has no key of a camera", files.use->string());
     all.insert(all.end(), sets.begin(), sets.end());
     sets = std::move(all);
 }
 
 void keep_camera_file(const CameraFiles& files, const Camera& camera) {
     if (!files.keep) return;
-    std::error_code ignored;
-    if (fs::exists(*files.keep, ignored))
-        throw UserError(
-            fmt::format("--keep-camera {}: exists already; choose another name", files.keep->string()));
-    const fs::path folder = files.keep->parent_path();
-    if (!folder.empty() && !fs::is_directory(folder, ignored))
-        throw UserError(fmt::format("--keep-camera {}: there is no folder {}; make it first",
-                                    files.keep->string(), folder.string()));
+    if (is_there(*files.keep))
+        throw UserError("--keep-camera {}: exists already; choose another name", files.keep->string());
+    check_folder_around(*files.keep, "--keep-camera " + files.keep->string());
     if (!camera.keys.empty())
         throw UserError(
             "--keep-camera: the camera moves by [[film.camera.key]], which no file of one camera holds");

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "render/app/options/cli.hpp"
 #include "render/scene/film.hpp"
@@ -18,12 +20,7 @@
 namespace grainreel {
 
 CLI::Option* add_paper(CLI::App& verb, PaperOptions& options, const char* about) {
-    const auto take = [&options](const std::string& folder) {
-        check_typed("--charts", folder);
-        options.folder = folder;
-    };
-    CLI::Option* charts =
-        verb.add_option_function<std::string>("--charts", take, about)->type_name("DIR")->check(not_empty());
+    CLI::Option* charts = add_typed(verb, "--charts", options.folder, about, "DIR")->check(not_empty());
     verb.add_option("--as", options.paper.forms, "With --charts: pdf, svg, png, or several with commas [pdf]")
         ->delimiter(',')
         ->check(CLI::IsMember({"pdf", "svg", "png"}))
@@ -42,15 +39,13 @@ CLI::Option* add_paper(CLI::App& verb, PaperOptions& options, const char* about)
 }
 
 void check_paper(const PaperOptions& options) {
-    std::error_code ignored;
-    if (options.folder && std::filesystem::exists(*options.folder, ignored) &&
-        !std::filesystem::is_directory(*options.folder, ignored))
-        throw UserError(fmt::format("--charts {}: is a file; name a folder", options.folder->string()));
+    if (options.folder && is_there(*options.folder) && !is_folder(*options.folder))
+        throw UserError("--charts {}: is a file; name a folder", options.folder->string());
     constexpr double inch = 25.4, most_pixels = 20000;
     if (options.paper.width_mm / inch * options.paper.dpi > most_pixels)
-        throw UserError(fmt::format(
+        throw UserError(
             "--dpi {}: a chart {} mm wide would have more than {} pixels across; lower one of them",
-            options.paper.dpi, options.paper.width_mm, most_pixels));
+            options.paper.dpi, options.paper.width_mm, most_pixels);
 }
 
 namespace {
@@ -70,9 +65,9 @@ PartsWanted parse_part(const std::string& text) {
                             bar < text.size() ? number(begin + bar + 1, begin + text.size()) : 0};
     if (parts.number < 1 || parts.of < parts.number || parts.of > most_parts)
         throw UserError(
-            fmt::format("--part {}: is no part; write its number and how many there are, as in "
-                        "3/16",
-                        excerpt(text)));
+            "--part {}: is no part; write its number and how many there are, as in "
+            "3/16",
+            excerpt(text));
     return parts;
 }
 
@@ -156,11 +151,11 @@ using Form = ReporterOptions::Form;
 Form progress_form(const std::string& word) {
     const std::map<std::string, Form> forms = {
         {"auto", Form::automatic}, {"json", Form::json}, {"none", Form::none}};
-    const auto found = forms.find(word);
-    if (found == forms.end()) {
-        throw UserError(fmt::format("--progress {}: no such form; choose auto, json or none", excerpt(word)));
+    const auto form = forms.find(word);
+    if (form == forms.end()) {
+        throw UserError("--progress {}: no such form; choose auto, json or none", excerpt(word));
     }
-    return found->second;
+    return form->second;
 }
 
 }  // namespace
@@ -229,9 +224,8 @@ constexpr std::array of_film_file = {"film.format",   "film.quality", "film.pres
 Assignments sets_for_still(Assignments sets, const char* option) {
     bool clear = false;
     for (const Assignment& set : sets) {
-        if (std::find(of_film_file.begin(), of_film_file.end(), set.key()) != of_film_file.end())
-            throw UserError(fmt::format("{}: is of a film, and {} draws one PNG file; leave it out",
-                                        set.place(), option));
+        if (contains(of_film_file, set.key()))
+            throw UserError("{}: is of a film, and {} draws one PNG file; leave it out", set.place(), option);
         clear = clear || set.key() == "film.transparent";
     }
     if (!clear) return sets;
@@ -306,8 +300,8 @@ int port_of(const std::string& flag, const std::string& text) {
     int port = -1;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
     if (error != std::errc() || end != text.data() + text.size() || port < 0 || port > highest_port)
-        throw UserError(fmt::format("{} {}: is no port; give a number from 0 (any that is free) to {}", flag,
-                                    excerpt(text), highest_port));
+        throw UserError("{} {}: is no port; give a number from 0 (any that is free) to {}", flag,
+                        excerpt(text), highest_port);
     return port;
 }
 
@@ -321,15 +315,10 @@ void add_watch_port(CLI::App& verb, WatchPlace& place) {
 }
 
 void add_watch_host(CLI::App& verb, WatchPlace& place) {
-    verb.add_option_function<std::string>(
-            "--watch-host",
-            [&place](const std::string& host) {
-                check_typed("--watch-host", host);
-                place.host = host;
-            },
-            "Name or address of this machine under which other machines may see the page. The address\n"
-            "that is printed has a key for one visitor [127.0.0.1: only this machine]")
-        ->type_name("HOST");
+    add_typed(verb, "--watch-host", place.host,
+              "Name or address of this machine under which other machines may see the page. The address\n"
+              "that is printed has a key for one visitor [127.0.0.1: only this machine]",
+              "HOST");
 }
 
 void add_watch(CLI::App& verb, bool& wanted, WatchPlace& place) {

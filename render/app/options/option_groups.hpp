@@ -26,6 +26,17 @@ inline constexpr const char* exit_statuses =
 // Throws UserError when what was typed after an option is not UTF-8.
 void check_typed(const std::string& option, const std::string& text);
 
+// An option whose text is checked in that way. type: what help calls its value.
+template <class Text>
+CLI::Option* add_typed(CLI::App& verb, const char* option, Text& into, const std::string& about,
+                       const char* type) {
+    const auto take = [option, &into](const std::string& text) {
+        check_typed(option, text);
+        into = text;
+    };
+    return verb.add_option_function<std::string>(option, take, about)->type_name(type);
+}
+
 // A check for options that name a file: an empty name, as from an unset shell variable, is refused.
 CLI::Validator not_empty();
 

@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/foreign/names.hpp"
@@ -23,13 +25,12 @@ namespace grainreel {
 
 namespace fs = std::filesystem;
 
-fs::path folder_around(const fs::path& path) {
-    std::error_code ignored;
-    if (!is_pattern(path) && fs::is_directory(path, ignored)) {
+fs::path folder_holding(const fs::path& path) {
+    if (!is_pattern(path) && is_folder(path)) {
         const fs::path whole = fs::absolute(path).lexically_normal();
         return whole.has_filename() ? whole.parent_path() : whole.parent_path().parent_path();
     }
-    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+    return folder_around(path);
 }
 
 void bring_back_to_read(const fs::path& path, Reporter& reporter) {
@@ -46,24 +47,24 @@ namespace {
 // for it.
 void refuse_other_files(const fs::path& path) {
     std::error_code ignored;
-    if (!fs::exists(path, ignored) || fs::is_directory(path, ignored) || path.extension() == ".toml") return;
+    if (!is_there(path) || is_folder(path) || path.extension() == ".toml") return;
     const ReadFormat* const reader = reader_of(path);
     if (reader != nullptr)
-        throw UserError(fmt::format("{}: is {}; give the folder of its run", path.string(), reader->about));
+        throw UserError("{}: is {}; give the folder of its run", path.string(), reader->about);
     for (const ReadFormat& known : frame_readers())
         if (std::string_view(known.name) == "foreign")
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}: is {}; give the folder of a run, or {}", path.string(),
                 fs::file_size(path, ignored) == 0 ? "an empty file" : "a file of no format that is read here",
-                known.about));
+                known.about);
 }
 
 }  // namespace
 
 void refuse_other_folder(const fs::path& path) {
     std::error_code ignored;
-    if (!fs::is_directory(path, ignored) || is_handover(path) || fs::exists(path / "scene.toml", ignored) ||
-        fs::exists(path / "trajectory.nc", ignored))
+    if (!is_folder(path) || is_handover(path) || is_there(path / "scene.toml") ||
+        is_there(path / "trajectory.nc"))
         return;
     std::vector<fs::path> inside;
     for (const fs::directory_entry& entry : fs::directory_iterator(path, ignored))
@@ -83,9 +84,9 @@ void refuse_other_folder(const fs::path& path) {
     for (const fs::path& folder : inside)
         if (!fs::exists(folder / "film_times.csv", ignored) && is_foreign(folder))
             throw UserError(
-                fmt::format("{}: is no folder of a run; files of another program lie in {}; name "
-                            "that folder",
-                            path.string(), folder.string()));
+                "{}: is no folder of a run; files of another program lie in {}; name "
+                "that folder",
+                path.string(), folder.string());
 }
 
 void check_reading(const fs::path& path, const ReadingOptions& reading) {
@@ -93,15 +94,13 @@ void check_reading(const fs::path& path, const ReadingOptions& reading) {
     if (reading.moves_with_container && reading.container.empty())
         throw UserError("--moves-with container: is about the container of a scene; add --container SCENE");
     if (option.empty() || is_foreign(path)) return;
-    std::error_code ignored;
-    if (!fs::exists(path, ignored))
-        throw UserError(fmt::format("{}: there is no such file or folder", path.string()));
+    if (!is_there(path)) throw UserError("{}: there is no such file or folder", path.string());
     refuse_other_files(path);
     refuse_other_folder(path);
-    throw UserError(fmt::format("{}: is for files of other programs, and {} {}", option, path.string(),
-                                fs::exists(path / "scene.toml", ignored) || path.extension() == ".toml"
-                                    ? "is ours"
-                                    : "holds none that can be read"));
+    throw UserError("{}: is for files of other programs, and {} {}", option, path.string(),
+                    is_there(path / "scene.toml") || path.extension() == ".toml"
+                        ? "is ours"
+                        : "holds none that can be read");
 }
 
 RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Reporter& reporter) {
@@ -122,7 +121,7 @@ RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Repor
     const Imported run = cached_import(request);
     reporter.name_import(run.folder, path);
     for (const std::string& line : run.news) reporter.info(line);
-    return {run.folder, folder_around(path), true};
+    return {run.folder, folder_holding(path), true};
 }
 
 // Options for files of other programs.
@@ -143,8 +142,8 @@ std::vector<Pair> pairs_of(const std::string& option, const std::string& text, c
         const std::string value =
             equals == std::string::npos ? "" : std::string(trimmed(one.substr(equals + 1), " \t"));
         if (name.empty() || value.empty())
-            throw UserError(fmt::format("{} {}: '{}' is no pair NAME=VALUE; write it as in {} {}", option,
-                                        text, one, option, example));
+            throw UserError("{} {}: '{}' is no pair NAME=VALUE; write it as in {} {}", option, text, one,
+                            option, example);
         pairs.emplace_back(name, value);
         from = to + 1;
     }
@@ -160,19 +159,18 @@ double positive_quantity(const std::string& option, const std::string& text, Dim
     try {
         if (!plain) value = parse_quantity(text, dimension, example);
     } catch (const std::exception& problem) {
-        throw UserError(fmt::format("{} {}: {}", option, text, problem.what()));
+        throw UserError("{} {}: {}", option, text, problem.what());
     }
-    if (!(value > 0))
-        throw UserError(fmt::format("{} {}: must be larger than 0, as in {}", option, text, example));
+    if (!(value > 0)) throw UserError("{} {}: must be larger than 0, as in {}", option, text, example);
     return value;
 }
 
 void set_columns(ReadingOptions& reading, const std::string& text) {
     const std::vector<std::string> known = all_meanings();
     for (const auto& [meaning, column] : pairs_of("--columns", text, "radius=c_rad,type=mol")) {
-        if (std::find(known.begin(), known.end(), meaning) == known.end())
-            throw UserError(fmt::format("--columns {}={}: there is no such meaning; there are {}", meaning,
-                                        column, fmt::join(known, ", ")));
+        if (!contains(known, meaning))
+            throw UserError("--columns {}={}: there is no such meaning; there are {}", meaning, column,
+                            fmt::join(known, ", "));
         reading.columns[meaning] = column;
     }
 }
@@ -188,14 +186,13 @@ void set_radius(ReadingOptions& reading, const std::string& text) {
 
 void set_units(ReadingOptions& reading, const std::string& text) {
     if (!unit_system(text))
-        throw UserError(fmt::format("--units {}: there are no such units; there are {}", text,
-                                    fmt::join(unit_names(), ", ")));
+        throw UserError("--units {}: there are no such units; there are {}", text,
+                        fmt::join(unit_names(), ", "));
     reading.units = text;
 }
 
 void set_moves_with(ReadingOptions& reading, const std::string& text) {
-    if (text != "container" && text != "lab")
-        throw UserError(fmt::format("--moves-with {}: say container or lab", text));
+    if (text != "container" && text != "lab") throw UserError("--moves-with {}: say container or lab", text);
     reading.moves_with_container = text == "container";
 }
 

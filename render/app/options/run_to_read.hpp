@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "engine/files/frames/state_archive.hpp"
 #include "render/app/messages/reporter.hpp"
@@ -27,8 +26,8 @@ struct RunToRead {
     bool imported = false;
 };
 
-// The folder that a file, a pattern or a folder lies in.
-std::filesystem::path folder_around(const std::filesystem::path& path);
+// The folder that a file, a pattern or a folder lies in. Unlike folder_around(), it knows patterns and folders.
+std::filesystem::path folder_holding(const std::filesystem::path& path);
 
 // If the folder was written by `grainreel handover` and another engine has run in it, makes our run's files
 // there from that engine's dump, unless they are there already. Warns if that engine's run is not complete.

@@ -88,9 +88,9 @@ std::vector<std::filesystem::path> draw_on_paper(const std::filesystem::path& fo
     replace_file(folder / (stem + ".gp"), all);
     if (!run_gnuplot(folder, stem + ".gp"))
         throw RunError(
-            fmt::format("{}: gnuplot is missing or failed, so there are tables but no charts; install "
-                        "gnuplot-nox and give the same command again",
-                        (folder / (stem + ".gp")).string()));
+            "{}: gnuplot is missing or failed, so there are tables but no charts; install "
+            "gnuplot-nox and give the same command again",
+            (folder / (stem + ".gp")).string());
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (paper.forms[i] == "svg") say_size_in_mm(files[i], paper.width_mm);
         if (paper.forms[i] == "png") say_dots(files[i], paper.dpi);
@@ -106,8 +106,8 @@ std::string bytes_of(const std::filesystem::path& file) {
 }
 
 RunError not_gnuplots(const std::filesystem::path& file) {
-    return RunError(fmt::format("{}: is not as gnuplot writes it; is this version of gnuplot known to work?",
-                                file.string()));
+    return RunError("{}: is not as gnuplot writes it; is this version of gnuplot known to work?",
+                    file.string());
 }
 
 // The CRC of PNG's chunks (ISO 3309; PNG specification, annex D).
@@ -142,8 +142,9 @@ void say_size_in_mm(const std::filesystem::path& svg, double width_mm) {
                  fmt::format(" width=\"{:.6g}mm\" height=\"{:.6g}mm\"", width_mm, width_mm * high / wide));
     constexpr std::string_view named = "font-family=\"DejaVu Sans\"",
                                any = "font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\"";
-    for (std::size_t at = text.find(named); at != std::string::npos; at = text.find(named, at + any.size()))
-        text.replace(at, named.size(), any);
+    for (std::size_t place = text.find(named); place != std::string::npos;
+         place = text.find(named, place + any.size()))
+        text.replace(place, named.size(), any);
     replace_file(svg, text);
 }
 

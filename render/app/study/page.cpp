@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/counted.hpp"
+#include "engine/base/lists.hpp"
 #include "render/app/study/results/captions.hpp"
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/points.hpp"
@@ -127,7 +128,7 @@ std::string chart_figures(const Study& study, const std::vector<Member>& members
     std::string text;
     for (const StudyChart& chart : study.charts) {
         const std::string stem = chart_stem(chart);
-        if (std::find(stems.begin(), stems.end(), stem) == stems.end()) continue;
+        if (!contains(stems, stem)) continue;
         const std::vector<ChartSeries> series = chart_series(study, members, results, chart);
         text += fmt::format(
             "<figure><a href=\"charts/{0}.svg\"><img src=\"charts/{0}.svg\" alt=\"{1}\"></a><figcaption "

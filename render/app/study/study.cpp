@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/numbers.hpp"
 #include "engine/base/typed_time.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/scene/axis_titles.hpp"
@@ -23,8 +24,6 @@ bool any_seeds(const Study& study, const Asked& asked) {
     return std::any_of(variants.begin(), variants.end(),
                        [&](const Variation::Value& variant) { return asked(variant.seeds); });
 }
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // The time at which the straight line from row i - 1 to row i reaches the threshold.
 double time_between(double threshold, const std::vector<double>& times, const std::vector<double>& values,
@@ -158,12 +157,12 @@ bool Study::joins_by(SeedAverage average) const {
 }
 
 double mean_of_values(const std::vector<double>& values) {
-    if (values.empty()) return nan;
+    if (values.empty()) return kUnknown;
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 double deviation_of_values(const std::vector<double>& values) {
-    if (values.size() < 2) return nan;
+    if (values.size() < 2) return kUnknown;
     const double mean = mean_of_values(values);
     double squares = 0;
     for (const double value : values) squares += (value - mean) * (value - mean);
@@ -177,25 +176,25 @@ double slope_of(const std::vector<double>& times, const std::vector<double>& val
         products += (times[i] - mean_time) * (values[i] - mean_value);
         squares += (times[i] - mean_time) * (times[i] - mean_time);
     }
-    return squares > 0 ? products / squares : nan;
+    return squares > 0 ? products / squares : kUnknown;
 }
 
 double first_passage(double threshold, const std::vector<double>& times, const std::vector<double>& values) {
-    if (values.empty()) return nan;
+    if (values.empty()) return kUnknown;
     const bool begins_above = values[0] > threshold;
     if (values[0] == threshold) return times[0];
     for (std::size_t i = 1; i < values.size(); ++i) {
         const bool reached = begins_above ? values[i] <= threshold : values[i] >= threshold;
         if (reached) return time_between(threshold, times, values, i);
     }
-    return nan;
+    return kUnknown;
 }
 
 double last_crossing(double threshold, const std::vector<double>& times, const std::vector<double>& values) {
     for (std::size_t i = values.size(); i-- > 1;)
         if ((values[i] >= threshold) != (values[i - 1] >= threshold))
             return time_between(threshold, times, values, i);
-    return nan;
+    return kUnknown;
 }
 
 double reduce(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values) {
@@ -211,23 +210,23 @@ double reduce(const Reduction& how, const std::vector<double>& times, const std:
         case Reduction::Kind::first_passage:
             return first_passage(how.threshold, rows.times, rows.values);
         case Reduction::Kind::share:
-            if (rows.values.empty()) return nan;
+            if (rows.values.empty()) return kUnknown;
             return std::isfinite(first_passage(how.threshold, rows.times, rows.values)) ? 1 : 0;
         case Reduction::Kind::max:
-            return rows.values.empty() ? nan : *std::max_element(rows.values.begin(), rows.values.end());
+            return rows.values.empty() ? kUnknown : *std::max_element(rows.values.begin(), rows.values.end());
         case Reduction::Kind::min:
-            return rows.values.empty() ? nan : *std::min_element(rows.values.begin(), rows.values.end());
+            return rows.values.empty() ? kUnknown : *std::min_element(rows.values.begin(), rows.values.end());
         case Reduction::Kind::deviation:
             return deviation_of_values(rows.values);
         case Reduction::Kind::end:
             break;
     }
-    return all.values.empty() ? nan : all.values.back();
+    return all.values.empty() ? kUnknown : all.values.back();
 }
 
 double last_time(const Reduction& how, const std::vector<double>& times, const std::vector<double>& values) {
     const TimedRows rows = finite_rows(rows_within(how, times, values));
-    return rows.times.empty() ? nan : rows.times.back();
+    return rows.times.empty() ? kUnknown : rows.times.back();
 }
 
 }  // namespace grainreel

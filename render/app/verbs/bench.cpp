@@ -88,8 +88,7 @@ void read_size(const std::string& size, Film& film) {
     const bool read = std::sscanf(size.c_str(), "%dx%d%n", &film.width, &film.height, &end) == 2;
     if (!read || end != static_cast<int>(size.size()) || std::min(film.width, film.height) < 64 ||
         std::max(film.width, film.height) > 8192)
-        throw UserError(
-            fmt::format("--size {}: must be width x height, each from 64 to 8192, as in 1920x1080", size));
+        throw UserError("--size {}: must be width x height, each from 64 to 8192, as in 1920x1080", size);
 }
 
 void set_style(const std::string& style, BenchRenderRequest& request) {
@@ -136,11 +135,11 @@ class Bench final : public Verb {
             return bench_render(render_, reporter);
         }
         const auto& cases = bench_cases();
-        const auto found =
+        const auto chosen =
             std::find_if(cases.begin(), cases.end(), [&](const BenchCase& c) { return c.name == case_; });
-        GRAINREEL_CHECK(found != cases.end());
+        GRAINREEL_CHECK(chosen != cases.end());
         const BenchOutcome outcome =
-            run_bench(*found, request_, ShareWatcher(reporter, Progress::Stage::timing));
+            run_bench(*chosen, request_, ShareWatcher(reporter, Progress::Stage::timing));
         reporter.clear();
         if (!outcome.complete) {
             reporter.info("stopped; nothing was measured to its end");

@@ -46,8 +46,8 @@ class ChartVerb final : public Verb {
         request.folder = out_.value_or(output_base() / (name_ + (quick_ ? "-quick" : "")));
         request.quick = quick_;
         if (std::error_code failure; !std::filesystem::create_directories(request.folder, failure) && failure)
-            throw UserError(fmt::format("{}: cannot be made ({}); give another --out",
-                                        request.folder.string(), failure.message()));
+            throw UserError("{}: cannot be made ({}); give another --out", request.folder.string(),
+                            failure.message());
         const bool whole = chart->run(request, ShareWatcher(reporter, Progress::Stage::charting));
         reporter.clear();
         if (!whole) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/run_folder.hpp"
 #include "render/app/messages/reporter.hpp"
@@ -53,8 +54,8 @@ class Compare final : public Verb {
                 .add_option_function<std::string>(
                     option,
                     [option](const std::string&) {
-                        throw UserError(fmt::format(
-                            "{}: is of render, for one run; a comparison is drawn in one go", option));
+                        throw UserError("{}: is of render, for one run; a comparison is drawn in one go",
+                                        option);
                     })
                 ->group("");  // hidden from --help
         for (const char* other : {"--frames", "--no-film"}) at->excludes(parser.get_option(other));
@@ -91,37 +92,23 @@ class Compare final : public Verb {
     // run. The inputs are files of scenes or folders of runs by now.
     void check_used() const {
         std::size_t runs = 0;
-        std::error_code ignored;
-        for (const std::filesystem::path& input : request_.inputs)
-            runs += std::filesystem::is_directory(input, ignored) ? 1 : 0;
+        for (const std::filesystem::path& input : request_.inputs) runs += is_folder(input) ? 1 : 0;
         if (no_cache_ && runs == request_.inputs.size())
             throw UserError("--no-cache: is for scenes that are run, and all of these are finished runs");
         if (!request_.replay && runs == 0)
             throw UserError("--no-replay: is for finished runs, and all of these are scenes to be run");
     }
     void add_vary(CLI::App& parser) {
-        parser
-            .add_option_function<std::string>(
-                "--vary",
-                [this](const std::string& text) {
-                    check_typed("--vary", text);
-                    request_.vary = text;
-                },
-                "Run one scene with two to six values of a key, as in --vary drive.g_level=2,4 or\n"
-                "--vary drive.frequency=\"20 Hz,30 Hz\"")
-            ->type_name("KEY=VALUES");
+        add_typed(parser, "--vary", request_.vary,
+                  "Run one scene with two to six values of a key, as in --vary drive.g_level=2,4 or\n"
+                  "--vary drive.frequency=\"20 Hz,30 Hz\"",
+                  "KEY=VALUES");
     }
     void add_captions(CLI::App& parser) {
-        parser
-            .add_option_function<std::string>(
-                "--captions",
-                [this](const std::string& text) {
-                    check_typed("--captions", text);
-                    request_.captions = text;
-                },
-                "Caption of each panel, with bars between them, as in \"Γ = 1|Γ = 3\" [what differs: the "
-                "values of --vary, the drives, otherwise the titles]")
-            ->type_name("TEXT");
+        add_typed(parser, "--captions", request_.captions,
+                  "Caption of each panel, with bars between them, as in \"Γ = 1|Γ = 3\" [what differs: the "
+                  "values of --vary, the drives, otherwise the titles]",
+                  "TEXT");
     }
 
     CompareRequest request_;

@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "engine/base/lists.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/base/text.hpp"
 #include "engine/lab/bench/bench_run.hpp"
@@ -117,7 +119,7 @@ double available_memory() {
 fs::path existing(fs::path folder) {
     std::error_code error;
     folder = fs::absolute(folder, error);
-    while (!fs::is_directory(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+    while (!is_folder(folder) && folder.has_relative_path()) folder = folder.parent_path();
     return folder;
 }
 
@@ -209,8 +211,7 @@ std::vector<Diagnosis> find_letters() {
         std::string package = missing.front().package;
         const bool of_ours = std::string(sample.name) == "Latin" || std::string(sample.name) == "Greek";
         if (of_ours) package = "fonts-dejavu-core", usual = false;
-        if (std::find(packages.begin(), packages.end(), package) == packages.end())
-            packages.push_back(std::move(package));
+        if (!contains(packages, package)) packages.push_back(std::move(package));
     }
     std::vector<Diagnosis> found;
     found.push_back({"letters", here.empty() ? "no font at all" : fmt::format("{}", fmt::join(here, ", ")),

@@ -1,11 +1,10 @@
 // The verb `export` writes frames of a run, of ours or of another program, in another program's format.
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "engine/base/counted.hpp"
-#include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/foreign/foreign_archive.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/state_writer.hpp"
@@ -107,14 +106,13 @@ class Export final : public Verb {
             if (format_ == format.name) ending = format.ending;
         fs::path base = fs::absolute(run_).lexically_normal();
         if (!base.has_filename()) base = base.parent_path();
-        std::error_code ignored;
-        const bool folder = fs::is_directory(base, ignored);  // its name has no ending
+        const bool folder = is_folder(base);  // its name has no ending
         std::string stem = (folder ? base.filename() : base.stem()).string();
         std::erase_if(stem, [](char c) { return c == '*' || c == '?' || c == '[' || c == ']'; });
         const fs::path beside =
             run_.has_parent_path() && run_.has_filename() ? run_.parent_path() : base.parent_path();
         fs::path name = beside / (stem + ending);
-        for (int number = 2; fs::exists(name, ignored) && !force_; ++number)
+        for (int number = 2; is_there(name) && !force_; ++number)
             name = beside / fmt::format("{}.{}{}", stem, number, ending);
         return name;
     }

@@ -1,17 +1,16 @@
 // The verb `handover` writes a scene as a folder that LAMMPS or LIGGGHTS runs, here or on a cluster.
-#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/carry.hpp"
-#include "engine/handover/decks.hpp"
 #include "engine/handover/handover_folder.hpp"
 #include "engine/handover/start_state.hpp"
 #include "engine/handover/triangle_walls.hpp"
@@ -110,13 +109,11 @@ class Handover final : public Verb {
     // Checks that a folder which would be replaced is a hand-over and nothing else.
     void check_replaceable() {
         std::error_code ignored;
-        if (!folder_.out || !folder_.force || !fs::exists(*folder_.out, ignored)) return;
-        if (fs::is_directory(*folder_.out, ignored) &&
-            (is_handover(*folder_.out) || fs::is_empty(*folder_.out, ignored)))
+        if (!folder_.out || !folder_.force || !is_there(*folder_.out)) return;
+        if (is_folder(*folder_.out) && (is_handover(*folder_.out) || fs::is_empty(*folder_.out, ignored)))
             return;
-        throw UserError(
-            fmt::format("--out {}: holds no hand-over, and nothing else is replaced; name another folder",
-                        folder_.out->string()));
+        throw UserError("--out {}: holds no hand-over, and nothing else is replaced; name another folder",
+                        folder_.out->string());
     }
 
     PackingWatcher watcher(Reporter& reporter) const {

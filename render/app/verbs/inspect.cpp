@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 #include "render/app/inspect/inspection.hpp"
 #include "render/app/inspect/print_answer.hpp"
 #include "render/app/messages/reporter.hpp"
@@ -135,12 +135,12 @@ class Inspect final : public Verb {
             throw UserError("--mean: is over time; add --every or --over-time");
         if (asks_.of_columns() && (!asks_.picture.empty() || asks_.average || asks_.moment.at ||
                                    asks_.moment.frame || asks_.moment.cycle))
-            throw UserError(fmt::format("{}: is of the whole run; leave moment, mean and picture out",
-                                        asks_.steady           ? "--steady"
-                                        : asks_.discharge      ? "--discharge"
-                                        : asks_.parameters     ? "--parameters"
-                                        : asks_.fields.empty() ? "--measure"
-                                                               : "--fields"));
+            throw UserError("{}: is of the whole run; leave moment, mean and picture out",
+                            asks_.steady           ? "--steady"
+                            : asks_.discharge      ? "--discharge"
+                            : asks_.parameters     ? "--parameters"
+                            : asks_.fields.empty() ? "--measure"
+                                                   : "--fields");
         if (windowed_ && asks_.columns.columns.empty() && asks_.fields.empty())
             throw UserError("--window: says which rows or records count; add --measure or --fields");
         if (asks_.average && !asks_.pixel.empty())
@@ -153,8 +153,7 @@ class Inspect final : public Verb {
             throw UserError("--film-time: must be at least 0 s, the film's first frame");
         for (const Assignment& set : asks_.sets)
             if (!asks_.draws() && set.key() != "run.threads")
-                throw UserError(
-                    fmt::format("{}: says how a picture is drawn; add --png or --pixel", set.place()));
+                throw UserError("{}: says how a picture is drawn; add --png or --pixel", set.place());
     }
 
     // Tells the moment and the notes on stderr, since a CSV table has no room for words.
@@ -247,7 +246,7 @@ class Inspect final : public Verb {
             try {
                 asks_.columns.window = time_window(text);
             } catch (const UserError& mistake) {
-                throw UserError(fmt::format("{}: {}", option, mistake.what()));
+                throw UserError("{}: {}", option, mistake.what());
             }
         };
         CLI::Option* in_window =

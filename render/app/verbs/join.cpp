@@ -25,14 +25,9 @@ class Join final : public Verb {
         parser.add_option("PART", request_.parts, "Folders of all parts, in any order")
             ->required()
             ->type_name("DIR");
-        CLI::Option* out = parser.add_option_function<std::string>(
-            "--out",
-            [this](const std::string& file) {
-                check_typed("--out", file);
-                request_.out = file;
-            },
-            "The film's file, as in film.mp4");
-        out->required()->check(not_empty())->type_name("FILE");
+        add_typed(parser, "--out", request_.out, "The film's file, as in film.mp4", "FILE")
+            ->required()
+            ->check(not_empty());
         parser.add_flag("--force", request_.force, "Replace the file in --out, once the new one is complete");
         add_reporting(parser, report);
     }

@@ -2,7 +2,6 @@
 // grainreel-VERB.1.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -167,8 +166,7 @@ class Manual final : public Verb {
             if (verb.name == verb_) return verb_man_page(verb, build_info::version);
             names.push_back(verb.name);
         }
-        throw UserError(
-            fmt::format("no verb is called '{}'; there are {}", excerpt(verb_), fmt::join(names, ", ")));
+        throw UserError("no verb is called '{}'; there are {}", excerpt(verb_), fmt::join(names, ", "));
     }
 
     void write_all(const std::vector<CommandVerb>& table) const {

@@ -87,8 +87,7 @@ std::vector<std::string> words_of(const std::filesystem::path& run, const std::s
 WatchChild::WatchChild(const std::filesystem::path& run, const std::string& host, Listening listening,
                        const ReporterOptions& report) {
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0)
-        throw RunError(fmt::format("--watch: no pipe: {}", std::strerror(errno)));
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw RunError("--watch: no pipe: {}", std::strerror(errno));
     std::vector<std::string> words = words_of(run, host, listening.socket(), ends[0], report);
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
@@ -103,7 +102,7 @@ WatchChild::WatchChild(const std::filesystem::path& run, const std::string& host
     alive_ = ends[1];
     if (process_ > 0) return;
     ::close(alive_);
-    throw RunError(fmt::format("--watch: no process for the page: {}", std::strerror(why)));
+    throw RunError("--watch: no process for the page: {}", std::strerror(why));
 }
 
 WatchChild::~WatchChild() {
@@ -195,7 +194,7 @@ class Movie final : public Verb {
         carry_.edinburgh = !law_.empty();
         const std::optional<std::string> lack =
             film_.film || film_.frames ? lacking_elsewhere(scene) : std::nullopt;
-        if (lack) throw UserError(fmt::format("{}: --engine {}: {}", scene.file, engine_, *lack));
+        if (lack) throw UserError("{}: --engine {}: {}", scene.file, engine_, *lack);
         CarriedScene carried = carry(scene, plan, carry_);
         throw_refusals(carried, [&](const std::string& line) { reporter.error(line); });
         if (film_.film || film_.frames) want_pictures(carried, scene);

@@ -7,7 +7,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/shipped/shipped_scenes.hpp"
 #include "render/app/messages/reporter.hpp"
@@ -27,9 +27,8 @@ const ShippedScene& scene_called(const std::string& name) {
     std::vector<std::string> names;
     for (const ShippedScene& scene : shipped_scenes()) names.push_back(scene.name);
     const std::optional<std::string> meant = nearest_shipped_scene(name);
-    throw UserError(fmt::format("--from: there is no single scene like '{}'; {}there are {}", excerpt(name),
-                                meant ? fmt::format("did you mean '{}'? ", *meant) : "",
-                                fmt::join(names, ", ")));
+    throw UserError("--from: there is no single scene like '{}'; {}there are {}", excerpt(name),
+                    meant ? fmt::format("did you mean '{}'? ", *meant) : "", fmt::join(names, ", "));
 }
 
 class New final : public Verb {
@@ -73,10 +72,10 @@ class New final : public Verb {
         check_typed("NAME", file.string());
         std::error_code ignored;
         if (fs::exists(fs::symlink_status(file, ignored)))
-            throw UserError(fmt::format("{}: is there already; choose another name", file.string()));
+            throw UserError("{}: is there already; choose another name", file.string());
         const fs::path folder = file.parent_path();
-        if (!folder.empty() && !fs::is_directory(folder, ignored))
-            throw UserError(fmt::format("{}: there is no such folder; make it first", folder.string()));
+        if (!folder.empty() && !is_folder(folder))
+            throw UserError("{}: there is no such folder; make it first", folder.string());
     }
 
     fs::path name_;

@@ -1,11 +1,11 @@
 // The verb `render` draws a finished run again, as a film or as one picture. Moments that the run did not
 // keep are brought back from its checkpoints; the run itself is not changed.
-#include <tuple>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/run_folder.hpp"
 #include "engine/handover/handover_folder.hpp"
@@ -34,9 +34,9 @@ void check_no_segments(const Assignments& sets) {
     for (const Assignment& set : sets)
         if (set.key().rfind("film.segment", 0) == 0)
             throw UserError(
-                fmt::format("{}: --every draws the frames of the trajectory one after the other, "
-                            "without segments; leave one of the two out",
-                            set.place()));
+                "{}: --every draws the frames of the trajectory one after the other, "
+                "without segments; leave one of the two out",
+                set.place());
 }
 
 class Render final : public Verb {
@@ -158,8 +158,8 @@ class Render final : public Verb {
     void check_idle() const {
         constexpr double least = 0.5, most = 1e6;
         if (idle_ && !(*idle_ >= least && *idle_ <= most))
-            throw UserError(fmt::format("--idle: must be a time from {} s to {:.0f} s, but is {:.6g} s",
-                                        least, most, *idle_));
+            throw UserError("--idle: must be a time from {} s to {:.0f} s, but is {:.6g} s", least, most,
+                            *idle_);
     }
 
     double idle() const { return idle_.value_or(60); }
@@ -169,14 +169,13 @@ class Render final : public Verb {
     int follow(Reporter& reporter) const {
         const bool handed_over = is_handover(request_.run);
         if (const std::string option = given_reading(reading_); handed_over && !option.empty())
-            throw UserError(fmt::format("{}: is for files of other programs, and {} was handed over by us",
-                                        option, request_.run.string()));
-        std::error_code ignored;
-        if (!handed_over && std::filesystem::exists(request_.run / "scene.toml", ignored))
-            throw UserError(fmt::format(
+            throw UserError("{}: is for files of other programs, and {} was handed over by us", option,
+                            request_.run.string());
+        if (!handed_over && is_there(request_.run / "scene.toml"))
+            throw UserError(
                 "--follow: is for files of other programs; a run of ours is shown by: {} watch {}",
-                program_call(), shell_word(request_.run.string())));
-        FollowFilm film(film_, {request_.run, reading_, request_.sets, folder_around(request_.run), idle()},
+                program_call(), shell_word(request_.run.string()));
+        FollowFilm film(film_, {request_.run, reading_, request_.sets, folder_holding(request_.run), idle()},
                         reporter);
         keep_camera_file(camera_, film.scene().film.camera);
         return tell_folder(film.run(), film_);

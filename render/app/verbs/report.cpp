@@ -13,13 +13,12 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
-#include "engine/base/own_folder.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/system/own_folder.hpp"
 #include "engine/files/frames/open_frames.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/run/resume/kept_files.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/app/check/print_plan.hpp"
 #include "render/app/messages/reporter.hpp"
@@ -84,9 +83,8 @@ std::optional<ReportMade> make_page_of(const std::vector<fs::path>& runs, const 
 }
 
 ComparedRuns runs_of_comparison(const fs::path& folder) {
-    std::error_code ignored;
     ComparedRuns runs;
-    if (!fs::is_regular_file(folder / "run.json", ignored) || is_there(folder / "scene.toml")) return runs;
+    if (!is_plain(folder / "run.json") || is_there(folder / "scene.toml")) return runs;
     const RunJson record = read_run_json(folder / "run.json").record;
     for (const std::string& panel : record.panels)
         runs.folders.push_back(folder / panel);  // a path from the root stays as it is
@@ -254,17 +252,13 @@ class Report final : public Verb {
     // that another program made, so that a slip of the user overwrites only pages of runs.
     static void check_out(const fs::path& out) {
         check_typed("--out", out.string());
-        std::error_code ignored;
-        const fs::path folder = out.parent_path();
-        if (!folder.empty() && !fs::is_directory(folder, ignored))
-            throw UserError(
-                fmt::format("--out {}: there is no folder {}; make it first", out.string(), folder.string()));
-        if (fs::is_directory(out, ignored))
+        check_folder_around(out, "--out " + out.string());
+        if (is_folder(out))
             throw UserError(fmt::format("--out {}: is a folder; name a file, as in {}", out.string(),
                                         (out / kPageName).string()));
         if (out.extension() != ".html")
             throw UserError(fmt::format("--out {}: a page's name ends in .html", out.string()));
-        if (fs::exists(out, ignored) && !is_page(out))
+        if (is_there(out) && !is_page(out))
             throw UserError(
                 fmt::format("--out {}: exists already and is no page of this program; choose another "
                             "name, or remove it",

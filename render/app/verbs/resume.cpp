@@ -1,11 +1,11 @@
 // The verb `resume` continues a run that was broken off, or that should be longer, in its folder.
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/folder_lock.hpp"
@@ -80,8 +80,8 @@ class Resume final : public Verb {
         if (!no_page_) film_.page = page_of_ended_run();
         const fs::path folder = folder_of_run(run_);
         if (is_handover(folder))
-            throw UserError(fmt::format("{}: was handed over; go on with: sh {} --continue", folder.string(),
-                                        shell_word((folder / "run.sh").string())));
+            throw UserError("{}: was handed over; go on with: sh {} --continue", folder.string(),
+                            shell_word((folder / "run.sh").string()));
         scene_file(folder);
         check_all_plain(folder);
         std::shared_ptr<FolderLock> lock = locked(folder);
@@ -98,8 +98,7 @@ class Resume final : public Verb {
         }
         film_.out = folder;
         film_.film = !no_film_ && has_film(scene, folder);
-        std::error_code ignored;
-        film_.frames = film_.film && fs::exists(folder / "frames", ignored);
+        film_.frames = film_.film && is_there(folder / "frames");
         const int processors = scene.run.threads > 0 ? scene.run.threads : usable_processors();
         const int threads = plan_threads(processors, film_.film, scene.grains()).engine;
         ResumePoint point = find_resume_point(scene, plan, folder, threads,
@@ -133,18 +132,17 @@ class Resume final : public Verb {
     // Continues a run of `movie --engine`: the other engine goes on from its own restart file.
     int go_on_elsewhere(const fs::path& folder, std::shared_ptr<FolderLock> lock, Reporter& reporter) {
         if (until_ || more_ || threads_ || !accept_.empty())
-            throw UserError(fmt::format(
-                "{}: another engine ran this, and its deck cannot be changed; leave out {}", folder.string(),
-                until_     ? "--until"
-                : more_    ? "--for"
-                : threads_ ? "--threads"
-                           : "--accept"));
+            throw UserError("{}: another engine ran this, and its deck cannot be changed; leave out {}",
+                            folder.string(),
+                            until_     ? "--until"
+                            : more_    ? "--for"
+                            : threads_ ? "--threads"
+                                       : "--accept");
         FilmedScene scene = read_filmed_scene(scene_file(folder), {}, measurable_in);
         const Plan plan = plan_with_film(scene);
         film_.out = folder;
         film_.film = !no_film_ && has_film(scene, folder);
-        std::error_code ignored;
-        film_.frames = film_.film && fs::exists(folder / "frames", ignored);
+        film_.frames = film_.film && is_there(folder / "frames");
         name_as_before(scene, folder);
         PeerJob run(film_, reporter, scene, plan, std::move(lock));
         return tell_folder(run.run(), film_);
@@ -154,8 +152,8 @@ class Resume final : public Verb {
     std::shared_ptr<FolderLock> locked(const fs::path& folder) const {
         if (std::optional<FolderLock> lock = FolderLock::take(folder, command))
             return std::make_shared<FolderLock>(std::move(*lock));
-        throw UserError(fmt::format("{}: is in use by {}; wait until it has ended", folder.string(),
-                                    FolderLock::holder(folder).value_or("another process")));
+        throw UserError("{}: is in use by {}; wait until it has ended", folder.string(),
+                        FolderLock::holder(folder).value_or("another process"));
     }
 
     static void put_back_former(const fs::path& folder, Reporter& reporter) {
@@ -251,9 +249,9 @@ class Resume final : public Verb {
         const std::vector<KeptCheckpoint> kept = kept_checkpoints(folder);
         if (kept.empty())
             throw UserError(
-                fmt::format("{}: has no checkpoint; the run was stopped while its grains were packed, or its "
-                            "checkpoints were removed; run its scene.toml again",
-                            folder.string()));
+                "{}: has no checkpoint; the run was stopped while its grains were packed, or its "
+                "checkpoints were removed; run its scene.toml again",
+                folder.string());
         const Plan plan = plan_of_run(before, folder);
         const double reached = plan.clock.time(reached_step(folder, kept.back().step));
         const double end = until_ ? *until_ : more_ ? reached + *more_ : before.run.duration;
@@ -261,9 +259,8 @@ class Resume final : public Verb {
         // may go on with the end that it has reached.
         const bool complete = read_run_json(folder / "run.json").record.status == RunStatus::complete;
         if (end < reached + (complete ? 0.5 : -0.5) * plan.clock.step)
-            throw UserError(
-                fmt::format("{}: the run has come to {:.6g} s already; give a later end, as in --for 5s",
-                            until_ || more_ ? (until_ ? "--until" : "--for") : folder.string(), reached));
+            throw UserError("{}: the run has come to {:.6g} s already; give a later end, as in --for 5s",
+                            until_ || more_ ? (until_ ? "--until" : "--for") : folder.string(), reached);
         if (until_ || more_)
             sets.push_back({fmt::format("run.duration={} s", end), until_ ? "--until" : "--for"});
         return read_filmed_scene(file, sets, measurable_in);

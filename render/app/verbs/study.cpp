@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
@@ -121,7 +120,7 @@ class StudyVerb final : public Verb {
         });
         empty.check();
         check_series(study, members_);
-        choose_members(study);
+        request_.wanted = members_of_variants(study, members_, variants_);
         results_.clear();
         request_.cost.clear();
         for (const Member& member : members_) {
@@ -175,46 +174,18 @@ class StudyVerb final : public Verb {
             collect->excludes(parser.get_option(of_runs));
     }
 
-    // Chooses the members of the variants in --variant; members of other variants are left as they are.
-    void choose_members(const Study& study) {
-        if (variants_.empty()) return;
-        if (!study.has_variants())
-            throw UserError(fmt::format("--variant {}: {} has no [[variant]]; leave it out",
-                                        variants_.front(), study.file.string()));
-        const std::vector<Variation::Value>& all = study.variations.front().values;
-        std::vector<bool> chosen(all.size());
-        for (const std::string& name : variants_) {
-            const auto found = std::find_if(all.begin(), all.end(),
-                                            [&](const Variation::Value& one) { return one.words == name; });
-            if (found == all.end())
-                throw UserError(fmt::format("--variant {}: {} has no such variant; there are {}", name,
-                                            study.file.string(), names_of(study.variations.front())));
-            chosen[static_cast<std::size_t>(found - all.begin())] = true;
-        }
-        request_.wanted.clear();
-        for (const Member& member : members_) request_.wanted.push_back(chosen[member.at.front()]);
-    }
-
     // "1.5 to 4"; one value alone is no range.
     static std::string range_of(const Variation& variation) {
         const std::string &first = variation.values.front().words, &last = variation.values.back().words;
         return variation.values.size() == 1 ? first : first + " to " + last;
     }
 
-    static std::string names_of(const Variation& variation) {
-        std::vector<std::string> names;
-        for (const Variation::Value& value : variation.values) names.push_back(value.words);
-        return fmt::format("{}", fmt::join(names, ", "));
-    }
-
     // Throws when the folder holds something, but no study.
     void check_folder() const {
         std::error_code none;
-        const bool fresh =
-            !std::filesystem::exists(folder_.path, none) || std::filesystem::is_empty(folder_.path, none);
+        const bool fresh = !is_there(folder_.path) || std::filesystem::is_empty(folder_.path, none);
         if (fresh || std::filesystem::is_directory(folder_.path / "members")) return;
-        throw UserError(
-            fmt::format("{}: holds something that is no study; give another --out", folder_.path.string()));
+        throw UserError("{}: holds something that is no study; give another --out", folder_.path.string());
     }
 
     std::vector<const Member*> pending() const {
@@ -239,7 +210,7 @@ class StudyVerb final : public Verb {
                         study.title, study.scene.string(), folder_.path.string());
         for (const Variation& variation : study.variations)
             text += variation.key == variant_axis
-                        ? fmt::format("variants     {}\n", names_of(variation))
+                        ? fmt::format("variants     {}\n", variant_names(variation))
                         : fmt::format("vary         {}: {}, {}\n", variation.key,
                                       counted(variation.values.size(), "value"), range_of(variation));
         text += fmt::format("members      {} = {}, {} of them to be run\n", members_.size(), reckoned,
@@ -339,9 +310,8 @@ class StudyVerb final : public Verb {
 
     FolderLock locked_folder() const {
         if (auto lock = FolderLock::take(folder_.path, command)) return std::move(*lock);
-        throw UserError(fmt::format("{}: is in use by {}; wait for it, or give another --out",
-                                    folder_.path.string(),
-                                    FolderLock::holder(folder_.path).value_or("another process")));
+        throw UserError("{}: is in use by {}; wait for it, or give another --out", folder_.path.string(),
+                        FolderLock::holder(folder_.path).value_or("another process"));
     }
 
     void write_results(const Study& study, const std::vector<std::vector<ReferencePoint>>& references,

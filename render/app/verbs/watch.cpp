@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "render/app/options/cli.hpp"
 #include "render/app/options/option_groups.hpp"
@@ -42,11 +43,9 @@ class WatchVerb final : public Verb {
     int run(Reporter& reporter) override {
         check_typed("RUN", run_.string());
         folder_of_run(run_);
-        std::error_code ignored;
         const bool begins = socket_.has_value();  // the run's files are still to come
-        if (!begins && !fs::exists(run_ / "run.json", ignored))
-            throw UserError(
-                fmt::format("{}: holds no run (no run.json); give the folder of a run", run_.string()));
+        if (!begins && !is_there(run_ / "run.json"))
+            throw UserError("{}: holds no run (no run.json); give the folder of a run", run_.string());
         Listening listening = socket_ ? Listening(*socket_) : listen_at(place_);
         return watch_run({run_, place_.host, std::move(listening), until_.value_or(-1)}, planned_scene,
                          reporter);

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/questions/ray.hpp"
 #include "render/film/codec/png.hpp"
 #include "render/film/production/picture_files.hpp"
@@ -109,14 +109,10 @@ FilmedScene scene_of_moment(FilmedScene scene, const Snapshot& snapshot, const A
 }  // namespace
 
 void check_picture_file(const std::filesystem::path& file) {
-    std::error_code error;
-    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     if (file.extension() != ".png")
         throw UserError(fmt::format("--png {}: name a file that ends in .png", file.string()));
-    if (!std::filesystem::is_directory(folder, error))
-        throw UserError(
-            fmt::format("--png {}: there is no folder {}; make it first", file.string(), folder.string()));
-    if (std::filesystem::exists(file, error))
+    check_folder_around(file, "--png " + file.string());
+    if (is_there(file))
         throw UserError(fmt::format("--png {}: exists already; choose another name", file.string()));
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 
 namespace grainreel {
 
@@ -82,10 +83,10 @@ void set_picture(AVCodecContext& context, const Codec& codec, const CodecSetting
 [[noreturn]] void no_encoder(const Codec& codec) {
     std::vector<std::string> names;
     for (const EncoderSetup& encoder : codec.encoders) names.emplace_back(encoder.name);
-    throw RunError(fmt::format(
+    throw RunError(
         "film: this machine's FFmpeg has no {} encoder ({}); install FFmpeg libraries built with {} "
         "(Debian: libavcodec59), choose another --format, or ask for --no-film --frames",
-        codec.standard, fmt::join(names, ", "), names.front()));
+        codec.standard, fmt::join(names, ", "), names.front());
 }
 
 }  // namespace
@@ -135,9 +136,8 @@ OpenCodec open_codec(const Codec& codec, const CodecSettings& settings) {
         const std::string words = setup.set_up(*open.context, options, settings);
         const int code = avcodec_open2(open.context.get(), encoder, options.get());
         if (code < 0)
-            throw RunError(fmt::format("film: {} refused size {}x{}, {:g} frames/s, {}: {}", setup.name,
-                                       settings.width, settings.height, av_q2d(settings.rate), words,
-                                       ffmpeg_error(code)));
+            throw RunError("film: {} refused size {}x{}, {:g} frames/s, {}: {}", setup.name, settings.width,
+                           settings.height, av_q2d(settings.rate), words, ffmpeg_error(code));
         const unsigned version = avcodec_version();
         open.description = fmt::format("{} (Lavc{}.{}.{}), {}{} thread{}", setup.name,
                                        AV_VERSION_MAJOR(version), AV_VERSION_MINOR(version),
@@ -168,11 +168,8 @@ constexpr std::array<const char*, 10> presets{"ultrafast", "superfast", "veryfas
 // Finds the preset among the known ones, because x264 would complain of an unknown preset on the terminal
 // itself, past FFmpeg's log.
 std::size_t preset_number(const std::string& preset) {
-    const auto found = std::find(presets.begin(), presets.end(), preset);
-    if (found == presets.end())
-        throw RunError(
-            fmt::format("film: x264 has no preset \"{}\"; take one of {}", preset, fmt::join(presets, ", ")));
-    return static_cast<std::size_t>(found - presets.begin());
+    if (const auto place = place_in(presets, preset)) return *place;
+    throw RunError("film: x264 has no preset \"{}\"; take one of {}", preset, fmt::join(presets, ", "));
 }
 
 // The crf of a codec whose scale runs from 0 to 63. `at_23` is the one that looks like x264's crf 23; steps

@@ -44,13 +44,13 @@ CodecSettings codec_settings(const EncoderSettings& settings) {
 
 Encoder::Encoder(const EncoderSettings& settings)
     : settings_(settings), conversion_(settings.width, settings.height, pixels_of(settings)) {
-    const CodecSettings wanted = codec_settings(settings);
-    if (wanted.width != settings.width || wanted.height != settings.height)
+    const CodecSettings padded = codec_settings(settings);
+    if (padded.width != settings.width || padded.height != settings.height)
         notes_.push_back(fmt::format(
             "{}x{} padded to {}x{}: {} needs even sizes to play everywhere; the last column or "
             "row is repeated",
-            settings.width, settings.height, wanted.width, wanted.height, settings.codec->standard));
-    OpenCodec open = open_codec(*settings.codec, wanted);
+            settings.width, settings.height, padded.width, padded.height, settings.codec->standard));
+    OpenCodec open = open_codec(*settings.codec, padded);
     codec_ = std::move(open.context);
     description_ = fmt::format("{}: {}", settings.codec->words, open.description);
     frame_ = make_frame(*codec_);
@@ -80,7 +80,7 @@ void Encoder::open_file() {
     file_.reset(context);
     AVStream* stream = context ? avformat_new_stream(context, nullptr) : nullptr;
     if (!stream || avcodec_parameters_from_context(stream->codecpar, codec_.get()) < 0)
-        throw RunError(fmt::format("film: this libavformat writes no {}", settings_.codec->words));
+        throw RunError("film: this libavformat writes no {}", settings_.codec->words);
     stream->time_base = codec_->time_base;
     stream->avg_frame_rate = codec_->framerate;
     if (!settings_.title.empty()) av_dict_set(&context->metadata, "title", settings_.title.c_str(), 0);
@@ -99,7 +99,7 @@ void Encoder::open_file() {
 }
 
 void Encoder::check_open() const {
-    if (!file_) throw RunError(fmt::format("{}: closed after an error", name()));
+    if (!file_) throw RunError("{}: closed after an error", name());
 }
 
 void Encoder::add(const Picture& picture) {
@@ -169,11 +169,11 @@ void Encoder::fail(int code) {
     file_.reset();
     const std::string reason = ffmpeg_error(code);
     if (settings_.path == to_stdout)
-        throw RunError(fmt::format(
+        throw RunError(
             "stdout: cannot write the film: {}; after {} frames, {}", reason, frames_,
-            code == AVERROR(EPIPE) ? "the program that reads it has ended" : "what was written plays"));
-    throw RunError(fmt::format("{}: cannot write the film: {}; {} frames were taken, what is on disk plays",
-                               name(), reason, frames_));
+            code == AVERROR(EPIPE) ? "the program that reads it has ended" : "what was written plays");
+    throw RunError("{}: cannot write the film: {}; {} frames were taken, what is on disk plays", name(),
+                   reason, frames_);
 }
 
 EvenSize coded_size(int width, int height, AVPixelFormat pixels) {

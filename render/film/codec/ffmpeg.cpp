@@ -41,16 +41,15 @@ LibraryName library_name(FfmpegLibrary library) {
 void* open_library(FfmpegLibrary library) {
     const auto [name, major] = library_name(library);
     if (void* const opened = dlopen(fmt::format("lib{}.so.{}", name, major).c_str(), RTLD_NOW)) return opened;
-    throw RunError(
-        fmt::format("film: FFmpeg's lib{0} cannot be opened ({2}); on Debian: apt-get install lib{0}{1}",
-                    name, major, dlerror()));
+    throw RunError("film: FFmpeg's lib{0} cannot be opened ({2}); on Debian: apt-get install lib{0}{1}", name,
+                   major, dlerror());
 }
 
 }  // namespace
 
 void* ffmpeg_function(FfmpegLibrary library, const char* name) {
     if (void* const found = dlsym(open_library(library), name)) return found;
-    throw RunError(fmt::format("film: FFmpeg is not as it should be ({}); install it again", dlerror()));
+    throw RunError("film: FFmpeg is not as it should be ({}); install it again", dlerror());
 }
 
 namespace {
@@ -149,7 +148,7 @@ std::string ffmpeg_error(int code) {
 namespace {
 
 void check(int code) {
-    if (code < 0) throw RunError(fmt::format("film: a filter of FFmpeg failed: {}", ffmpeg_error(code)));
+    if (code < 0) throw RunError("film: a filter of FFmpeg failed: {}", ffmpeg_error(code));
 }
 
 std::string source(const char* name, int width, int height, int pixels) {

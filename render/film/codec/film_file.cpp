@@ -1,7 +1,6 @@
 #include "render/film/codec/film_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 #include <cerrno>
 
@@ -44,8 +43,7 @@ bool FilmReader::feed() {
 
 std::int64_t pictures_in(const std::filesystem::path& film) {
     const auto check = [&](int code) {
-        if (code < 0)
-            throw RunError(fmt::format("{}: cannot be read back: {}", film.string(), ffmpeg_error(code)));
+        if (code < 0) throw RunError("{}: cannot be read back: {}", film.string(), ffmpeg_error(code));
     };
     InputPtr file;
     check(open_film(film, file));
@@ -62,7 +60,7 @@ std::int64_t pictures_in(const std::filesystem::path& film) {
 double frame_rate_of(const std::filesystem::path& film) {
     InputPtr file;
     if (const int code = open_film(film, file); code < 0)
-        throw RunError(fmt::format("{}: cannot be read back: {}", film.string(), ffmpeg_error(code)));
+        throw RunError("{}: cannot be read back: {}", film.string(), ffmpeg_error(code));
     if (file->nb_streams == 0) return 0;
     const AVStream& stream = *file->streams[0];
     const AVRational rate = stream.avg_frame_rate.den > 0 ? stream.avg_frame_rate : stream.r_frame_rate;
@@ -70,8 +68,7 @@ double frame_rate_of(const std::filesystem::path& film) {
 }
 
 void FilmReader::check(int code) const {
-    if (code < 0)
-        throw RunError(fmt::format("{}: cannot be read back: {}", path_.string(), ffmpeg_error(code)));
+    if (code < 0) throw RunError("{}: cannot be read back: {}", path_.string(), ffmpeg_error(code));
 }
 
 namespace {
@@ -172,8 +169,8 @@ void remux_for_streaming(const std::filesystem::path& path, const FilmContainer&
     if (code >= 0) return;
     std::error_code ignored;
     std::filesystem::remove(part, ignored);
-    throw RunError(fmt::format("{}: cannot put the index in front: {}; the film on disk is whole and plays",
-                               path.string(), ffmpeg_error(code)));
+    throw RunError("{}: cannot put the index in front: {}; the film on disk is whole and plays",
+                   path.string(), ffmpeg_error(code));
 }
 
 }  // namespace grainreel

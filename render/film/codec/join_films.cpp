@@ -29,7 +29,7 @@ PieceReader::PieceReader(const FilmPiece& piece, AVRational rate)
 }
 
 void PieceReader::fail(const std::string& what) const {
-    throw UserError(fmt::format("{}: {}; draw that part again", piece_.name, what));
+    throw UserError("{}: {}; draw that part again", piece_.name, what);
 }
 
 bool PieceReader::next(AVPacket& packet) {
@@ -52,12 +52,12 @@ void PieceReader::take(const AVPacket& packet) {
     if (place_ == 0 && (packet.flags & AV_PKT_FLAG_KEY) == 0) fail("does not begin with a key frame");
     const AVRational base = stream().time_base;
     frame_ = av_rescale_q(packet.pts, base, frame_time_);
-    const bool there = frame_ >= 0 && frame_ < piece_.frames;
-    if (!there || std::abs(av_rescale_q(frame_, frame_time_, base) - packet.pts) > 1)
+    const bool in_piece = frame_ >= 0 && frame_ < piece_.frames;
+    if (!in_piece || std::abs(av_rescale_q(frame_, frame_time_, base) - packet.pts) > 1)
         fail(fmt::format("has a picture at {:.6g} s, where its rate has none",
                          static_cast<double>(packet.pts) * av_q2d(base)));
-    if (came_[static_cast<std::size_t>(frame_)]) fail("has two pictures at one time");
-    came_[static_cast<std::size_t>(frame_)] = true;
+    if (came_[frame_]) fail("has two pictures at one time");
+    came_[frame_] = true;
     if (place_ == 0 && packet.dts != AV_NOPTS_VALUE)
         delay_ = frame_ - av_rescale_q(packet.dts, base, frame_time_);
 }
@@ -92,8 +92,7 @@ class Joined {
 
   private:
     void check(int code) const {
-        if (code < 0)
-            throw RunError(fmt::format("{}: cannot be written: {}", path_.string(), ffmpeg_error(code)));
+        if (code < 0) throw RunError("{}: cannot be written: {}", path_.string(), ffmpeg_error(code));
     }
 
     const std::filesystem::path path_;
@@ -168,7 +167,7 @@ JoinEnd join_films(const std::vector<FilmPiece>& pieces, const Codec& codec, dou
     for (const FilmPiece& piece : pieces) {
         PieceReader reader(piece, frames);
         if (!same_coding(*reader.stream().codecpar, *first.stream().codecpar))
-            throw UserError(fmt::format("{}: is coded otherwise than {}", piece.name, pieces.front().name));
+            throw UserError("{}: is coded otherwise than {}", piece.name, pieces.front().name);
         while (reader.next(*packet)) {
             if (!go_on()) return JoinEnd::stopped;
             if (reader.place() == 0 && before == 0) {
@@ -176,8 +175,8 @@ JoinEnd join_films(const std::vector<FilmPiece>& pieces, const Codec& codec, dou
                 delay = reader.delay();
             }
             if (reader.delay() != delay || reader.place() - delay > reader.frame())
-                throw UserError(fmt::format("{}: its pictures are coded in another order than those of {}",
-                                            piece.name, pieces.front().name));
+                throw UserError("{}: its pictures are coded in another order than those of {}", piece.name,
+                                pieces.front().name);
             film.add(*packet, reader, before);
             av_packet_unref(packet.get());
         }

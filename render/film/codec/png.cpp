@@ -1,6 +1,5 @@
 #include "render/film/codec/png.hpp"
 
-#include <fmt/format.h>
 #include <libdeflate.h>
 #include <png.h>
 #include <cerrno>
@@ -163,7 +162,7 @@ void write_png(const std::filesystem::path& path, const Picture& picture, const 
     if (reason.empty()) return;
     std::error_code ignored;
     std::filesystem::remove(part, ignored);
-    throw RunError(fmt::format("{}: cannot write the picture: {}", path.string(), reason));
+    throw RunError("{}: cannot write the picture: {}", path.string(), reason);
 }
 
 }  // namespace grainreel

@@ -35,7 +35,7 @@ EncoderSettings spool_settings(EncoderSettings settings, const Codec& spool, con
 std::int64_t size_of(const std::filesystem::path& path) {
     std::error_code error;
     const auto size = std::filesystem::file_size(path, error);
-    if (error) throw RunError(fmt::format("{}: cannot be found again: {}", path.string(), error.message()));
+    if (error) throw RunError("{}: cannot be found again: {}", path.string(), error.message());
     return static_cast<std::int64_t>(size);
 }
 
@@ -86,42 +86,40 @@ void CappedFilm::refuse(std::int64_t size, std::int64_t floor, double overhead) 
     const auto frames = spool_->frames();
     const double share = std::max(0.0, cap - overhead) / (static_cast<double>(floor) - overhead);
     throw RunError(
-        fmt::format("{}: a cap of {} is too small for this film: below {} small digits on its frames read "
-                    "wrong. What fits: {}; "
-                    "or raise --max-size (the whole film is kept, {})",
-                    settings_.path.string(), data_size_text(cap), data_size_text(static_cast<double>(floor)),
-                    smaller_film(settings_.width, settings_.height, frames, share),
-                    data_size_text(static_cast<double>(size))));
+        "{}: a cap of {} is too small for this film: below {} small digits on its frames read "
+        "wrong. What fits: {}; "
+        "or raise --max-size (the whole film is kept, {})",
+        settings_.path.string(), data_size_text(cap), data_size_text(static_cast<double>(floor)),
+        smaller_film(settings_.width, settings_.height, frames, share),
+        data_size_text(static_cast<double>(size)));
 }
 
 // Encodes the film again, each time with a rate corrected by the last size, until the size is within its
 // bounds.
 void CappedFilm::fill(double overhead) {
     const auto cap = static_cast<double>(cap_);
-    const double wanted = aim * cap - overhead;
+    const double room = aim * cap - overhead;
     const std::string log = first_pass();
     const double seconds = static_cast<double>(spool_->frames()) / settings_.rate;
-    double rate = 8 * wanted / seconds;
+    double rate = 8 * room / seconds;
     for (int pass = 1; pass <= most_passes; ++pass) {
         const std::int64_t got = encode_at(std::llround(rate), log);
         result_ = fmt::format("{} in two passes of {:.0f} kbit/s, under the cap of {}",
                               data_size_text(static_cast<double>(got)), rate / 1000, data_size_text(cap));
         const bool fits = got <= cap_ && static_cast<double>(got) >= least * cap;
         if (fits || (pass == most_passes && got <= cap_)) return take_fitted();
-        rate *= wanted / std::max(1.0, static_cast<double>(got) - overhead);
+        rate *= room / std::max(1.0, static_cast<double>(got) - overhead);
     }
     throw RunError(
-        fmt::format("{}: {} could not be brought under the cap of {}; raise --max-size (the whole film "
-                    "is kept)",
-                    settings_.path.string(), settings_.codec->words, data_size_text(cap)));
+        "{}: {} could not be brought under the cap of {}; raise --max-size (the whole film "
+        "is kept)",
+        settings_.path.string(), settings_.codec->words, data_size_text(cap));
 }
 
 // Puts the film that was encoded anew in place of the film at its own quality.
 void CappedFilm::take_fitted() const {
     const int code = replace_synced(work_.file(fitted), settings_.path);
-    if (code < 0)
-        throw RunError(
-            fmt::format("{}: cannot be replaced: {}", settings_.path.string(), ffmpeg_error(code)));
+    if (code < 0) throw RunError("{}: cannot be replaced: {}", settings_.path.string(), ffmpeg_error(code));
 }
 
 // CodecSettings::log for the second pass: the name of x264's file, or the text that libvpx gives.
@@ -139,8 +137,7 @@ std::string CappedFilm::first_pass() const {
         int code = avcodec_send_frame(codec.context.get(), frame);
         while (code >= 0) code = avcodec_receive_packet(codec.context.get(), packet.get());
         if (code != AVERROR(EAGAIN) && code != AVERROR_EOF)
-            throw RunError(
-                fmt::format("{}: the first pass failed: {}", settings_.path.string(), ffmpeg_error(code)));
+            throw RunError("{}: the first pass failed: {}", settings_.path.string(), ffmpeg_error(code));
         if (!frame) break;
     }
     return codec.context->stats_out ? codec.context->stats_out : "";
@@ -237,8 +234,8 @@ std::int64_t GifFilm::write(const GifColours& colours, const std::filesystem::pa
 void GifFilm::take(const std::filesystem::path& made) {
     const int code = replace_synced(made, settings_.path);
     if (code < 0)
-        throw RunError(fmt::format("{}: cannot be written: {}; {} plays", settings_.path.string(),
-                                   ffmpeg_error(code), work_.file("spool.mkv").string()));
+        throw RunError("{}: cannot be written: {}; {} plays", settings_.path.string(), ffmpeg_error(code),
+                       work_.file("spool.mkv").string());
     work_.remove();
 }
 
@@ -257,12 +254,12 @@ void GifFilm::finish() {
     take(best);
     const auto cap = static_cast<double>(*cap_), needed = static_cast<double>(smallest);
     throw RunError(
-        fmt::format("{}: a cap of {} is too small for this film, which has {} with the fewest colours. What "
-                    "fits: {}; or raise "
-                    "--max-size (the whole film is kept, {})",
-                    settings_.path.string(), data_size_text(cap), data_size_text(needed),
-                    smaller_film(settings_.width, settings_.height, spool_->frames(), cap / needed),
-                    data_size_text(static_cast<double>(size))));
+        "{}: a cap of {} is too small for this film, which has {} with the fewest colours. What "
+        "fits: {}; or raise "
+        "--max-size (the whole film is kept, {})",
+        settings_.path.string(), data_size_text(cap), data_size_text(needed),
+        smaller_film(settings_.width, settings_.height, spool_->frames(), cap / needed),
+        data_size_text(static_cast<double>(size)));
 }
 
 }  // namespace grainreel

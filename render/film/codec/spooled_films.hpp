@@ -8,7 +8,6 @@
 // in the pixels of the codec, is kept on disk until the film is complete.
 #pragma once
 
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <cstdint>
 #include <filesystem>
@@ -32,8 +31,7 @@ class WorkFolder {
     // Throws RunError.
     explicit WorkFolder(const std::filesystem::path& film) : path_(film.parent_path() / "movie.work") {
         const std::error_code error = make_plain_folder(path_);
-        if (error)
-            throw RunError(fmt::format("{}: cannot make the folder: {}", path_.string(), error.message()));
+        if (error) throw RunError("{}: cannot make the folder: {}", path_.string(), error.message());
         made_ = identity();
     }
     ~WorkFolder() {

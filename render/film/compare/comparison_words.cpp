@@ -241,22 +241,20 @@ std::vector<Assignment> read_vary(const std::string& typed) {
     const Assignment all(typed, "--vary");
     const std::string key = all.key();
     if (typed.find('=') == std::string::npos || key.empty())
-        throw UserError(
-            fmt::format("--vary {}: write KEY=VALUE,VALUE, as in drive.g_level=2,4", excerpt(typed)));
+        throw UserError("--vary {}: write KEY=VALUE,VALUE, as in drive.g_level=2,4", excerpt(typed));
     const std::string place = "--vary " + excerpt(key);
     for (const char* const shared : of_the_whole)
         if (is_or_is_in(key, shared))
-            throw UserError(fmt::format("{}: is the same for all panels; vary another key", place));
+            throw UserError("{}: is the same for all panels; vary another key", place);
     std::vector<std::string> values = split(all.value());
     if (values.size() < 2)
-        throw UserError(fmt::format("{}: has one value; give two or more, with commas between them", place));
+        throw UserError("{}: has one value; give two or more, with commas between them", place);
     std::vector<Assignment> assignments;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (values[i].empty())
-            throw UserError(fmt::format("{}: value {} is empty; take a comma away", place, i + 1));
+        if (values[i].empty()) throw UserError("{}: value {} is empty; take a comma away", place, i + 1);
         if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) !=
             values.begin() + static_cast<std::ptrdiff_t>(i))
-            throw UserError(fmt::format("{}: has {} twice", place, excerpt(values[i])));
+            throw UserError("{}: has {} twice", place, excerpt(values[i]));
         assignments.push_back({fmt::format("{}={}", key, values[i]), place});
     }
     return assignments;

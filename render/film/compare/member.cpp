@@ -9,7 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/team.hpp"
 #include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
@@ -37,9 +37,9 @@ void ComparedMember::begin(const std::filesystem::path& folder, const JobRequest
     const std::filesystem::path own = folder / place();
     std::error_code error;
     std::filesystem::create_directory(own, error);
-    if (error) throw RunError(fmt::format("{}: cannot be made: {}", own.string(), error.message()));
+    if (error) throw RunError("{}: cannot be made: {}", own.string(), error.message());
     std::optional<FolderLock> lock = FolderLock::take(own, request.command);
-    if (!lock) throw RunError(fmt::format("{}: another process has it", own.string()));
+    if (!lock) throw RunError("{}: another process has it", own.string());
     driver_->use_folder(folder_.emplace(std::move(*lock)), request.program.version);
     if (request.keep_packings) driver_->keep_packings(*request.keep_packings);
     static_cast<ProgramInfo&>(report_) = request.program;
@@ -123,10 +123,7 @@ constexpr std::size_t most_panels = 6;  // with more, each is too small to show 
 struct Input {
     fs::path path;
     std::optional<Assignment> value = std::nullopt;  // value of the varied key in this panel
-    bool is_run() const {
-        std::error_code ignored;
-        return fs::is_directory(path, ignored);
-    }
+    bool is_run() const { return is_folder(path); }
     Assignments sets(const CompareRequest& what) const {
         Assignments all = what.sets;
         if (value) all.push_back(*value);
@@ -137,17 +134,16 @@ struct Input {
 // Refuses pipes: a pipe gives its scene once, but scenes may be read twice.
 void check_not_pipe(const fs::path& input) {
     if (other_than_file(input, true) == "a pipe")
-        throw UserError(
-            fmt::format("{}: this is a pipe; give the path of a scene file (.toml)", input.string()));
+        throw UserError("{}: this is a pipe; give the path of a scene file (.toml)", input.string());
 }
 
 void check_count(std::size_t count, const CompareRequest& what) {
     if (what.vary && count > most_panels)
-        throw UserError(fmt::format("--vary: has {} values; a film shows {} at most", count, most_panels));
+        throw UserError("--vary: has {} values; a film shows {} at most", count, most_panels);
     if (count < 2 || count > most_panels)
-        throw UserError(fmt::format(
-            "compare takes 2 to {} scenes or folders of runs, not {}{}; see {} compare --help", most_panels,
-            count, count == 1 ? " (or one with --vary KEY=VALUE,VALUE)" : "", program_call()));
+        throw UserError("compare takes 2 to {} scenes or folders of runs, not {}{}; see {} compare --help",
+                        most_panels, count, count == 1 ? " (or one with --vary KEY=VALUE,VALUE)" : "",
+                        program_call());
 }
 
 std::vector<Input> inputs_of(const CompareRequest& what) {
@@ -155,8 +151,8 @@ std::vector<Input> inputs_of(const CompareRequest& what) {
     if (!what.vary) {
         for (const fs::path& path : what.inputs) inputs.push_back({path});
     } else if (what.inputs.size() != 1) {
-        throw UserError(fmt::format("--vary: takes one scene, not {}; give its values in it, or leave it out",
-                                    what.inputs.size()));
+        throw UserError("--vary: takes one scene, not {}; give its values in it, or leave it out",
+                        what.inputs.size());
     } else {
         for (Assignment& value : read_vary(*what.vary)) inputs.push_back({what.inputs[0], std::move(value)});
     }
@@ -167,8 +163,8 @@ std::vector<Input> inputs_of(const CompareRequest& what) {
 void check_not_set_too(const CompareRequest& what, const std::vector<Input>& inputs) {
     for (const Assignment& set : what.sets)
         if (inputs[0].value && set.key() == inputs[0].value->key())
-            throw UserError(fmt::format("{}: {} gives it a value too; leave one of the two out",
-                                        inputs[0].value->place(), set.place()));
+            throw UserError("{}: {} gives it a value too; leave one of the two out", inputs[0].value->place(),
+                            set.place());
 }
 
 // Gives scenes different names, since each has its own folder inside the folder of the comparison.
@@ -253,15 +249,15 @@ std::vector<FilmedScene> read_scenes_of_one_length(const CompareRequest& what,
 void check_start(const FilmedScene& scene) {
     if (scene.start.keep_clock)
         throw UserError(
-            fmt::format("{}: goes on at the clock of its start file, but scenes that are compared "
-                        "all begin at 0; remove 'keep_clock'",
-                        scene.where("start.keep_clock")));
+            "{}: goes on at the clock of its start file, but scenes that are compared "
+            "all begin at 0; remove 'keep_clock'",
+            scene.where("start.keep_clock"));
 }
 
 ThreadPlan plan_threads_for(const std::vector<FilmedScene>& scenes) {
     if (scenes.empty()) return drawing_threads(0);
-    const int wanted = scenes.front().run.threads;
-    const int processors = wanted > 0 ? wanted : usable_processors();
+    const int asked = scenes.front().run.threads;
+    const int processors = asked > 0 ? asked : usable_processors();
     std::int64_t grains = 0;
     for (const FilmedScene& scene : scenes) grains += scene.grains();
     ThreadPlan threads = plan_threads(processors, true, grains);

@@ -64,7 +64,7 @@ int FlashWatch::flashing_in(int column, int row) const {
     int flashing = 0;
     for (int y = row; y < row + kHigh; ++y)
         for (int x = column; x < column + kWide; ++x)
-            flashing += places_[static_cast<std::size_t>(y * kAcross + x)].turns.size() > kMostTurns;
+            flashing += places_[y * kAcross + x].turns.size() > kMostTurns;
     return flashing;
 }
 

@@ -50,7 +50,7 @@ std::vector<PngText> texts_of(const std::string& scene, const std::string& title
 void make_frames_folder(const std::filesystem::path& run) {
     const std::filesystem::path frames = run / "frames";
     if (const std::error_code error = make_plain_folder(frames))
-        throw RunError(fmt::format("{}: cannot make the folder: {}", frames.string(), error.message()));
+        throw RunError("{}: cannot make the folder: {}", frames.string(), error.message());
 }
 
 PictureFiles::PictureFiles(const FilmedScene& scene, const FilmOptions& options)
@@ -256,7 +256,7 @@ void PageCopy::finish(const fs::path& film) {
     encoder_->finish();
     encoder_.reset();
     fs::rename(work_, file_, error);
-    if (error) throw RunError(fmt::format("{}: cannot be renamed: {}", work_.string(), error.message()));
+    if (error) throw RunError("{}: cannot be renamed: {}", work_.string(), error.message());
 }
 
 }  // namespace grainreel

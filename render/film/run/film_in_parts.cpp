@@ -10,6 +10,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/run_json.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -32,9 +33,9 @@ void check(const PartsWanted& wanted, const FilmRequest& request, const FilmedSc
     const std::string option = option_of(wanted);
     const std::size_t most = pictures / least_pictures_of_part;
     if (most < static_cast<std::size_t>(wanted.of))
-        throw UserError(fmt::format("{}: the film has {} picture{}, and a part needs {}; {}", option,
-                                    pictures, pictures == 1 ? "" : "s", least_pictures_of_part,
-                                    most > 1 ? fmt::format("{} parts at most", most) : "draw it in one go"));
+        throw UserError("{}: the film has {} picture{}, and a part needs {}; {}", option, pictures,
+                        pictures == 1 ? "" : "s", least_pictures_of_part,
+                        most > 1 ? fmt::format("{} parts at most", most) : "draw it in one go");
     if (wanted.number > 0 && request.to_stdout)
         throw UserError(option + ": parts are joined from their folders; leave out --out -, or the part");
     if (!request.film) return;
@@ -95,7 +96,7 @@ std::int64_t FilmInParts::known_from() const {
     const FilmTrails& trails = scene_.film.shows.trails;
     std::int64_t first = here_.first_picture;
     if (!trails.wanted()) return first;
-    const double from = times_[static_cast<std::size_t>(first)] - room * trails.duration;
+    const double from = times_[first] - room * trails.duration;
     while (first > 0 && times_[static_cast<std::size_t>(first) - 1] >= from) --first;
     return first;
 }
@@ -183,24 +184,21 @@ struct Part {
 };
 
 Part read_part(const fs::path& folder) {
-    std::error_code error;
-    if (!fs::is_directory(folder, error))
-        throw UserError(
-            fmt::format("{}: is no folder; give the folders that render --part has made", folder.string()));
+    if (!is_folder(folder))
+        throw UserError("{}: is no folder; give the folders that render --part has made", folder.string());
     const ReadRunJson read = read_run_json(folder / "run.json");
     if (!read.record.part)
-        throw UserError(fmt::format(
-            "{}: has no run.json of a part of a film; give the folders that render --part has made",
-            folder.string()));
-    if (read.status != "complete")
         throw UserError(
-            fmt::format("{}: is not complete (its run.json says {}); wait for it, or draw it again",
-                        folder.string(), excerpt(read.status)));
+            "{}: has no run.json of a part of a film; give the folders that render --part has made",
+            folder.string());
+    if (read.status != "complete")
+        throw UserError("{}: is not complete (its run.json says {}); wait for it, or draw it again",
+                        folder.string(), excerpt(read.status));
     if (read.record.part->file.empty())
-        throw UserError(fmt::format(
+        throw UserError(
             "{}: has no film; its pictures in frames/ have the numbers that they have in one go, and need no "
             "joining",
-            folder.string()));
+            folder.string());
     return {folder, read.record, *read.record.part};
 }
 
@@ -212,12 +210,12 @@ std::vector<Part> in_order(std::vector<Part> parts) {
     const int of = parts.front().record.of;
     for (const Part& part : parts)
         if (part.record.of != of)
-            throw UserError(fmt::format("{}: is one of {} parts, and {} one of {}", part.name(),
-                                        part.record.of, parts.front().name(), of));
+            throw UserError("{}: is one of {} parts, and {} one of {}", part.name(), part.record.of,
+                            parts.front().name(), of);
     for (std::size_t k = 1; k < parts.size(); ++k)
         if (number(parts[k]) == number(parts[k - 1]))
-            throw UserError(fmt::format("{}: is part {} of {}, as {} is; leave one of the two out",
-                                        parts[k].name(), number(parts[k]), of, parts[k - 1].name()));
+            throw UserError("{}: is part {} of {}, as {} is; leave one of the two out", parts[k].name(),
+                            number(parts[k]), of, parts[k - 1].name());
     constexpr std::size_t most_named = 8;
     std::vector<int> missing;
     auto next = parts.begin();
@@ -230,16 +228,16 @@ std::vector<Part> in_order(std::vector<Part> parts) {
     if (missing.empty()) return parts;
     const std::size_t more = missing.size() - std::min(missing.size(), most_named);
     missing.resize(missing.size() - more);
-    throw UserError(fmt::format("part{} {}{} of {}: missing; draw {} by render --part, or name {} too",
-                                missing.size() > 1 ? "s" : "", fmt::join(missing, ", "),
-                                more > 0 ? fmt::format(" and {} more", more) : "", of,
-                                missing.size() > 1 ? "them" : "it", missing.size() > 1 ? "them" : "it"));
+    throw UserError("part{} {}{} of {}: missing; draw {} by render --part, or name {} too",
+                    missing.size() > 1 ? "s" : "", fmt::join(missing, ", "),
+                    more > 0 ? fmt::format(" and {} more", more) : "", of, missing.size() > 1 ? "them" : "it",
+                    missing.size() > 1 ? "them" : "it");
 }
 
 void check_alike(const Part& part, const Part& first) {
     const DrawnPart &a = part.record, &b = first.record;
     const auto differs = [&](const std::string& how) {
-        throw UserError(fmt::format("{}: {} {}; draw one of the two again", part.name(), how, first.name()));
+        throw UserError("{}: {} {}; draw one of the two again", part.name(), how, first.name());
     };
     if (a.run != b.run) differs("is of another run, or of another stretch of it, than");
     if (a.format != b.format || a.rate != b.rate || a.settings != b.settings)
@@ -256,16 +254,16 @@ void check_together(const std::vector<Part>& parts, Listener& listener) {
     for (const Part& part : parts) {
         check_alike(part, parts.front());
         if (part.record.first_frame != frames || part.record.all_frames < frames + part.record.frames)
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}: does not begin where the part before it ends (its run.json was altered); draw it again",
-                part.name()));
+                part.name());
         frames += part.record.frames;
     }
     if (frames != parts.back().record.all_frames)
         throw UserError(
-            fmt::format("{}: does not end where the film does (its run.json was altered); draw "
-                        "it again",
-                        parts.back().name()));
+            "{}: does not end where the film does (its run.json was altered); draw "
+            "it again",
+            parts.back().name());
     for (const Part& part : parts)
         if (part.run.gl != parts.front().run.gl) {
             listener.warning(fmt::format("{} was drawn with {}, and {} with {}: shades may differ",
@@ -278,11 +276,11 @@ void check_together(const std::vector<Part>& parts, Listener& listener) {
 // Throws when the film would be written into a part: parts stay as they are.
 void check_outside(const JoinRequest& request) {
     std::error_code error;
-    const fs::path folder = request.out.has_parent_path() ? request.out.parent_path() : fs::path(".");
+    const fs::path folder = folder_around(request.out);
     for (const fs::path& part : request.parts)
         if (fs::equivalent(folder, part, error))
-            throw UserError(fmt::format("--out {}: lies in the part {}; choose another place",
-                                        request.out.string(), part.string()));
+            throw UserError("--out {}: lies in the part {}; choose another place", request.out.string(),
+                            part.string());
 }
 
 FilmFormat format_of(const Part& part) {
@@ -290,8 +288,8 @@ FilmFormat format_of(const Part& part) {
         if (word == part.record.format && format != FilmFormat::png &&
             film_file_name(format) == part.record.file)
             return format;
-    throw UserError(fmt::format("{}: its run.json names no film that can be joined ({}, {})", part.name(),
-                                excerpt(part.record.file), excerpt(part.record.format)));
+    throw UserError("{}: its run.json names no film that can be joined ({}, {})", part.name(),
+                    excerpt(part.record.file), excerpt(part.record.format));
 }
 
 }  // namespace
@@ -301,17 +299,12 @@ void check_joined(const fs::path& out, FilmFormat film, bool force) {
     const std::string option = fmt::format("--out {}", out.string()),
                       end = fmt::format(".{}", codec.extension);
     std::error_code error;
-    const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, error))
-        throw UserError(fmt::format("{}: there is no folder {}; make it first", option, folder.string()));
-    if (fs::is_directory(out, error))
-        throw UserError(fmt::format("{}: is a folder; name a file that ends in {}", option, end));
+    check_folder_around(out, option);
+    if (is_folder(out)) throw UserError("{}: is a folder; name a file that ends in {}", option, end);
     if (out.extension() != end)
-        throw UserError(
-            fmt::format("{}: the parts are {}; name a file that ends in {}", option, codec.words, end));
+        throw UserError("{}: the parts are {}; name a file that ends in {}", option, codec.words, end);
     if (fs::exists(fs::symlink_status(out, error)) && !force)
-        throw UserError(
-            fmt::format("{}: exists already; choose another name, or --force to replace it", option));
+        throw UserError("{}: exists already; choose another name, or --force to replace it", option);
 }
 
 bool join_parts(const JoinRequest& request, Listener& listener) {
@@ -327,12 +320,12 @@ bool join_parts(const JoinRequest& request, Listener& listener) {
     for (const Part& part : parts) {
         const fs::path file = part.folder / part.record.file;
         if (!fs::is_regular_file(file))
-            throw UserError(fmt::format("{}: is missing; draw that part again", file.string()));
+            throw UserError("{}: is missing; draw that part again", file.string());
         if (checksum_of_file(file) != part.record.checksum)
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}: was cut off or changed (its checksum is not that of run.json beside it); draw "
                 "that part again",
-                file.string()));
+                file.string());
         if (listener.stop_signal() != 0) return false;
         pieces.push_back({file, file.string(), part.record.frames});
     }

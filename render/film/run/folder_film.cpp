@@ -9,7 +9,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_names.hpp"
-#include "engine/run/resume/kept_files.hpp"
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/codec/film_writer.hpp"
 #include "render/film/production/picture_files.hpp"

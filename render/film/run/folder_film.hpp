@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "engine/plan/plan.hpp"
 #include "engine/run/folder/folder_job.hpp"

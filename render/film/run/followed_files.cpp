@@ -30,9 +30,9 @@ class FollowedFiles final : public Followed {
                 "--container: its walls move with the drive, which --follow does not do; leave one out");
         for (const Assignment& set : what.sets)
             if (set.key().rfind("film.walls.colour", 0) == 0 && set.value() != "plain")
-                throw UserError(fmt::format(
+                throw UserError(
                     "{}: stress and wear of walls are known once all files are read; leave out --follow",
-                    set.place()));
+                    set.place());
     }
 
     const fs::path& folder() const override { return place_->folder(); }
@@ -105,7 +105,7 @@ void FollowedFiles::open_files() {
             why = not_yet.what();  // may be no mistake but a header that is half written
         }
         if (!import_ && (last || listener_.stop_signal() != 0))
-            throw UserError(fmt::format("{} (--follow waited {:.3g} s)", why, what_.idle));
+            throw UserError("{} (--follow waited {:.3g} s)", why, what_.idle);
         if (!import_) std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }
 }

@@ -2,7 +2,6 @@
 // ends with the job.
 #include <chrono>
 #include <thread>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -36,8 +35,7 @@ class FollowedJob final : public Followed {
           scene_(scene_of_run(what.from, what.sets)),
           plan_(make_plan(scene_)),
           returning_(free_folder(what.from)) {
-        if (const auto lack = lacking_elsewhere(scene_))
-            throw UserError(fmt::format("{}: {}", what.from.string(), *lack));
+        if (const auto lack = lacking_elsewhere(scene_)) throw UserError("{}: {}", what.from.string(), *lack);
     }
 
     const fs::path& folder() const override { return returning_->path(); }
@@ -84,16 +82,15 @@ void FollowedJob::wait_for_first() {
         const JobEnd job = look_at_job();
         if (job.ended && !read()) {
             if (!job.failure.empty())
-                throw RunError(fmt::format("{}: has no whole moment; {}", facts_.dump.string(), job.failure));
-            throw UserError(
-                fmt::format("{}: has no whole moment, and the job has ended", facts_.dump.string()));
+                throw RunError("{}: has no whole moment; {}", facts_.dump.string(), job.failure);
+            throw UserError("{}: has no whole moment, and the job has ended", facts_.dump.string());
         }
         if (job.ended) break;
         if (waiting.seconds() >= what_.idle || listener_.stop_signal() != 0)
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}: is not there, or has no whole moment yet (--follow waited {:.3g} s); has the "
                 "job begun?",
-                facts_.dump.string(), waiting.seconds()));
+                facts_.dump.string(), waiting.seconds());
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     // Without a moment there is nothing from which a job could go on.

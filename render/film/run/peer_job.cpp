@@ -11,9 +11,8 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/team.hpp"
 #include "engine/files/run_folder.hpp"
-#include "engine/files/run_names.hpp"
 #include "engine/handover/deck_dump.hpp"
-#include "engine/handover/decks.hpp"
+#include "engine/handover/decks/decks.hpp"
 #include "engine/handover/start_state.hpp"
 #include "engine/handover/triangle_walls.hpp"
 #include "render/film/sampling/film_frames.hpp"
@@ -46,15 +45,14 @@ std::int64_t restart_to_go_on(const fs::path& run) {
     const std::optional<std::int64_t> step = newest_restart(place, facts.engine);
     if (!step)
         throw UserError(
-            fmt::format("{}: {} has left no restart file, so that nothing is there to go on from; run its "
-                        "scene.toml again",
-                        run.string(), name_of(facts.engine)));
-    std::error_code missing;
-    if (fs::exists(place / end_name, missing) || *step >= facts.last + facts.shift)
+            "{}: {} has left no restart file, so that nothing is there to go on from; run its "
+            "scene.toml again",
+            run.string(), name_of(facts.engine));
+    if (is_there(place / end_name) || *step >= facts.last + facts.shift)
         throw UserError(
-            fmt::format("{}: {} has come to its end already, and a longer run is another deck; "
-                        "run the scene again with a longer run.duration",
-                        run.string(), name_of(facts.engine)));
+            "{}: {} has come to its end already, and a longer run is another deck; "
+            "run the scene again with a longer run.duration",
+            run.string(), name_of(facts.engine));
     return *step;
 }
 
@@ -81,7 +79,7 @@ std::vector<std::int64_t> needed_steps(const FilmedScene& scene, const Clock& cl
     const std::vector<FilmSegment> segments = segments_of(scene.film);
     for (const Due& shot : film_schedule(scene, clock, steps)) {
         needed.push_back(shot.step);
-        const FilmSegment& segment = segments[static_cast<std::size_t>(shot.segment)];
+        const FilmSegment& segment = segments[shot.segment];
         for (const auto& more : {exposed_steps(shot, segment, clock), averaged_steps(shot, segment, clock)})
             needed.insert(needed.end(), more.begin(), more.end());
     }
@@ -178,10 +176,9 @@ bool PeerJob::work() {
     if (!failure.empty()) throw RunError(failure);
     if (stopped) return false;
     if (record.steps < carried_.last)
-        throw RunError(fmt::format("{} ended at {:.6g} of {:.6g} s without an error; its output is in {}",
-                                   name_of(carried_.engine), record.simulated,
-                                   carried_.plan.clock.time(carried_.last),
-                                   (folder() / ReturnedRun::kFolder / PeerProcess::kOutput).string()));
+        throw RunError("{} ended at {:.6g} of {:.6g} s without an error; its output is in {}",
+                       name_of(carried_.engine), record.simulated, carried_.plan.clock.time(carried_.last),
+                       (folder() / ReturnedRun::kFolder / PeerProcess::kOutput).string());
     return true;
 }
 

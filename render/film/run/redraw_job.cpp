@@ -23,8 +23,7 @@ namespace {
 void check_out(const FilmRequest& request, const std::filesystem::path& run) {
     std::error_code error;
     if (request.out && std::filesystem::equivalent(*request.out, run, error))
-        throw UserError(
-            fmt::format("--out {}: is the run that is drawn; choose another name", request.out->string()));
+        throw UserError("--out {}: is the run that is drawn; choose another name", request.out->string());
     if (!request.film && !request.frames)
         throw UserError("--no-film: leaves nothing to draw; add --frames for the pictures");
 }
@@ -102,12 +101,11 @@ void RedrawJob::choose_pictures(const RenderRequest& what) {
             shots_.push_back(shot);
     }
     if (shots_.empty() && !all.empty())
-        throw UserError(fmt::format("{}: no picture of the film lies there; they go from {:.6g} to {:.6g} s",
-                                    what.from ? "--from" : "--to", film.moment(all.front().step).time,
-                                    film.moment(all.back().step).time));
+        throw UserError("{}: no picture of the film lies there; they go from {:.6g} to {:.6g} s",
+                        what.from ? "--from" : "--to", film.moment(all.front().step).time,
+                        film.moment(all.back().step).time);
     if (shots_.empty())
-        throw UserError(
-            fmt::format("{}: the run came to none of its film's pictures", source_.run().path().string()));
+        throw UserError("{}: the run came to none of its film's pictures", source_.run().path().string());
     show_what_there_is();
 }
 

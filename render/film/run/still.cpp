@@ -1,12 +1,11 @@
 #include "render/film/run/still.hpp"
 
 #include <cmath>
-#include <limits>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/questions/asked_moment.hpp"
 #include "engine/run/driver/pace.hpp"
@@ -34,22 +33,16 @@ fs::path free_name(const FilmedScene& scene, const fs::path& beside, double time
 }
 
 void check_picture(const fs::path& path, bool pdf, bool force) {
-    std::error_code error;
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, error))
-        throw UserError(
-            fmt::format("--out {}: there is no folder {}; make it first", path.string(), folder.string()));
-    if (fs::is_directory(path, error))
-        throw UserError(
-            fmt::format("--out {}: is a folder; with --at, name a PNG or PDF file", path.string()));
+    check_folder_around(path, "--out " + path.string());
+    if (is_folder(path))
+        throw UserError("--out {}: is a folder; with --at, name a PNG or PDF file", path.string());
     if (path.extension() != ".png" && path.extension() != ".pdf")
-        throw UserError(
-            fmt::format("--out {}: with --at, name a file that ends in .png or .pdf", path.string()));
+        throw UserError("--out {}: with --at, name a file that ends in .png or .pdf", path.string());
     if (pdf && path.extension() == ".png")
-        throw UserError(fmt::format("--out {}: with --pdf, name a file that ends in .pdf", path.string()));
-    if (fs::exists(path, error) && !force)
-        throw UserError(fmt::format("--out {}: exists already; choose another name, or --force to replace it",
-                                    path.string()));
+        throw UserError("--out {}: with --pdf, name a file that ends in .pdf", path.string());
+    if (is_there(path) && !force)
+        throw UserError("--out {}: exists already; choose another name, or --force to replace it",
+                        path.string());
 }
 
 // The moment that is drawn, and the words about it.
@@ -76,9 +69,9 @@ Chosen choose(const RenderRequest& what, const StoredShots& source) {
                         what.at.value_or(asked.time), source.why_not_all());
         if (std::abs(time - asked.time) > run.mean_interval())
             throw UserError(
-                fmt::format("{}; the kept moment nearest to it is {:.6g} s, too far away to stand "
-                            "for it; choose that one",
-                            lack, time));
+                "{}; the kept moment nearest to it is {:.6g} s, too far away to stand "
+                "for it; choose that one",
+                lack, time);
         chosen.instead = fmt::format("{}; {:.6g} s is drawn, the kept moment that is nearest", lack, time);
     }
     const std::size_t index = run.nearest(time);
@@ -128,13 +121,12 @@ bool remember_what_was(Renderer& renderer, std::int64_t step, StoredShots& sourc
 // The frame with a value for each grain.
 ShotPtr with_own_values(const Shot& frame, const OwnColours& own) {
     if (own.id.empty() && own.value.size() != frame.size())
-        throw UserError(
-            fmt::format("{} values for the colours of {} grains; give one for each grain of {:.6g} s",
-                        own.value.size(), frame.size(), frame.time));
+        throw UserError("{} values for the colours of {} grains; give one for each grain of {:.6g} s",
+                        own.value.size(), frame.size(), frame.time);
     auto shot = std::make_shared<Shot>(frame);
     shot->own = own.value;
     if (own.id.empty()) return shot;
-    shot->own.assign(frame.size(), std::numeric_limits<double>::quiet_NaN());
+    shot->own.assign(frame.size(), kUnknown);
     for (std::size_t i = 0; i < frame.size(); ++i)
         if (const auto row = row_of_id(own.id, frame.id[i])) shot->own[i] = own.value[*row];
     return shot;
@@ -156,8 +148,8 @@ std::string seconds_in_names(double time) {
 
 void check_still(const FilmRequest& request, const RenderRequest& what) {
     if (request.to_stdout)
-        throw UserError(fmt::format("--out -: with {}, name a file that ends in .png or .pdf",
-                                    what.frame ? "--frame" : "--at"));
+        throw UserError("--out -: with {}, name a file that ends in .png or .pdf",
+                        what.frame ? "--frame" : "--at");
     if (request.out) check_picture(*request.out, what.print.pdf, request.force);
 }
 

@@ -25,11 +25,11 @@ std::vector<FilmPart> film_parts(const Film& film, const std::vector<double>& ti
     CaptionHolds holds(film);
     std::int64_t picture = 0, frame = 0;
     for (int k = 0; k < parts; ++k) {
-        FilmPart& part = all[static_cast<std::size_t>(k)];
+        FilmPart& part = all[k];
         part.first_picture = picture;
         part.first_frame = frame;
         for (const std::int64_t end = pictures * (k + 1) / parts; picture < end; ++picture)
-            frame += 1 + holds.begin_at(times[static_cast<std::size_t>(picture)]);
+            frame += 1 + holds.begin_at(times[picture]);
         part.pictures = picture - part.first_picture;
         part.frames = frame - part.first_frame;
     }
@@ -127,18 +127,18 @@ std::string key_of_segment(std::size_t segment, const char* key) {
         locked ? fmt::format("raise '{}'", key)
         : any  ? fmt::format("raise '{}', now {:.4g},", key, scene.film.segments[segment].playback)
                : std::string("lower 'film.rate'");
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: the film would have {:.4g} frames, and the most are {}; {} or shorten 'run.duration'",
-        scene.where(key), frames, most_frames, how));
+        scene.where(key), frames, most_frames, how);
 }
 
 [[noreturn]] void fail_moments(const FilmedScene& scene, std::size_t segment, double moments) {
     const bool averages = scene.film.segments.at(segment).average > 0;
     const std::string key = key_of_segment(segment, averages ? "average" : "exposures");
     throw UserError(
-        fmt::format("{}: the film's pictures would be made of {:.4g} earlier moments, and the most are {}; "
-                    "lower '{}' or make the film shorter",
-                    scene.where(key), moments, most_moments, key));
+        "{}: the film's pictures would be made of {:.4g} earlier moments, and the most are {}; "
+        "lower '{}' or make the film shorter",
+        scene.where(key), moments, most_moments, key);
 }
 
 }  // namespace
@@ -170,21 +170,21 @@ void check_max_size(const FilmedScene& scene, std::int64_t frames) {
     const double pixels = pixels_of(film, frames), cap = static_cast<double>(*film.max_size);
     if (8 * cap >= least_bits_a_pixel * pixels) return;
     const double needed = size_at(film, frames, least_legible);
-    throw UserError(fmt::format(
+    throw UserError(
         "{}: {} for {} frames of {}x{} are {:.1g} bits a pixel, too few for digits to be read; a bed "
         "of grains needs about {}. What fits: {}; or raise it",
         scene.where("film.max_size"), data_size_text(cap), frames, film.width, film.height, 8 * cap / pixels,
-        data_size_text(needed), smaller_film(film.width, film.height, frames, cap / needed)));
+        data_size_text(needed), smaller_film(film.width, film.height, frames, cap / needed));
 }
 
 void check_addresses(const Film& film) {
     constexpr double bytes_a_pixel = 64;  // 42 were measured between 160x90 and 1920x1080
     const double needed = static_cast<double>(kAddressesOfFilm) + bytes_a_pixel * pixels_of(film, 1);
     if (has_addresses(static_cast<std::size_t>(needed))) return;
-    throw UserError(fmt::format(
+    throw UserError(
         "the film needs {} of address space, and a limit (ulimit -v) leaves less; raise the limit, or "
         "leave out the film with --no-film",
-        data_size_text(needed)));
+        data_size_text(needed));
 }
 
 std::vector<std::string> film_warnings(const FilmedScene& scene, std::int64_t frames) {

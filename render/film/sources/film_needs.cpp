@@ -36,12 +36,11 @@ using Kind = StoredRun::Kind;
 void check_orientations(const FilmedScene& scene, const StoredRun& run) {
     if (!scene.film.look.rotation || run.supply().orientations) return;
     if (run.kind() == Kind::imported)
-        throw UserError(
-            fmt::format("{}: its files say no orientations; let film.rotation be false", scene.title));
+        throw UserError("{}: its files say no orientations; let film.rotation be false", scene.title);
     throw UserError(
-        fmt::format("{}: has no orientations, and the film shows rotation; run it with "
-                    "output.orientation = true, or let film.rotation be false",
-                    run.name_of("trajectory.nc")));
+        "{}: has no orientations, and the film shows rotation; run it with "
+        "output.orientation = true, or let film.rotation be false",
+        run.name_of("trajectory.nc"));
 }
 
 // Frames the picture by how high the grains got: for a finished run this need not be estimated.
@@ -63,13 +62,13 @@ void look_at_contacts(const FilmedScene& scene, const StoredRun& run, Lines& lin
     if (lack->some || back) return;
     const char* const advice = "let film.colour.by be something else and film.force_chains false";
     if (run.kind() == Kind::imported)
-        throw UserError(fmt::format("{}: its files say no contacts; name files that do by --contacts, or {}",
-                                    run.path().filename().string(), advice));
-    throw UserError(fmt::format("{}: has no contacts.nc; {}; {}", run.path().string(),
-                                run.kind() == Kind::elsewhere
-                                    ? "another engine computed the run, and its dumps have no contacts"
-                                    : "the run was not told to keep contacts (output.contacts = true)",
-                                advice));
+        throw UserError("{}: its files say no contacts; name files that do by --contacts, or {}",
+                        run.path().filename().string(), advice);
+    throw UserError("{}: has no contacts.nc; {}; {}", run.path().string(),
+                    run.kind() == Kind::elsewhere
+                        ? "another engine computed the run, and its dumps have no contacts"
+                        : "the run was not told to keep contacts (output.contacts = true)",
+                    advice);
 }
 
 // Leaves out plots and live words. Empty plots, and words without values, would look like a result of the
@@ -98,18 +97,17 @@ void check_columns(const FilmedScene& scene, const StoredRun& run) {
                             "(2500 kg/m3 is glass), or take that out of the film",
                             scene.title, what, name));
         if (run.kind() == Kind::imported)
-            throw UserError(
-                fmt::format("{}: {} {}, which is known of runs of ours alone; take that out of the film",
-                            scene.title, what, name));
+            throw UserError("{}: {} {}, which is known of runs of ours alone; take that out of the film",
+                            scene.title, what, name);
         if (run.kind() == Kind::elsewhere)
             throw UserError(
-                fmt::format("{}: {} {}, which is measured in runs of our own engine alone; take "
-                            "that out of the film",
-                            run.path().string(), what, name));
+                "{}: {} {}, which is measured in runs of our own engine alone; take "
+                "that out of the film",
+                run.path().string(), what, name);
         throw UserError(
-            fmt::format("{}: lacks the column {}, which {}; take that out of the film, or run "
-                        "the scene again with it",
-                        run.name_of("measures.csv"), name, what));
+            "{}: lacks the column {}, which {}; take that out of the film, or run "
+            "the scene again with it",
+            run.name_of("measures.csv"), name, what);
     };
     need("time_s", "every run has");
     for (const FilmPlot& plot : scene.film.shows.plots) need(plot.column, "film.plot shows");
@@ -144,9 +142,8 @@ void fit_range_of_import(FilmedScene& scene, const StoredRun& run) {
                 if (std::isfinite(value)) most = std::max(most, value);
             }
     if (!any)
-        throw UserError(
-            fmt::format("{}: its walls say no {} of their triangles, and the film colours walls by it",
-                        scene.title, by_pressure ? "stress" : "wear"));
+        throw UserError("{}: its walls say no {} of their triangles, and the film colours walls by it",
+                        scene.title, by_pressure ? "stress" : "wear");
     if (!walls.fixed && most > 0) walls.range = {1e-3 * most, most};
 }
 
@@ -198,7 +195,7 @@ std::vector<std::string> do_without(FilmedScene& scene, const StoredRun& run) {
     Lines lines;
     const bool elsewhere = run.kind() == Kind::elsewhere;
     if (const auto lack = lacking_elsewhere(scene); lack && elsewhere)
-        throw UserError(fmt::format("{}: {}", run.path().string(), *lack));
+        throw UserError("{}: {}", run.path().string(), *lack);
     check_orientations(scene, run);
     frame_what_is_reached(scene, run);
     look_at_contacts(scene, run, lines);

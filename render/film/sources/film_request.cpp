@@ -28,8 +28,8 @@ void fit_to_paper(Film& film, const PrintSize& print) {
     const double width = std::round(*print.width_mm / inch * dots_an_inch(print));
     const double height = std::round(width * film.height / film.width);
     if (width < 16 || height < 16 || width > most || height > most)
-        throw UserError(fmt::format("--width-mm: {} mm at {} dpi are {} x {} pixels; a side has 16 to {}",
-                                    *print.width_mm, dots_an_inch(print), width, height, most));
+        throw UserError("--width-mm: {} mm at {} dpi are {} x {} pixels; a side has 16 to {}",
+                        *print.width_mm, dots_an_inch(print), width, height, most);
     film.width = static_cast<int>(width);
     film.height = static_cast<int>(height);
 }
@@ -55,8 +55,8 @@ double time_of_cycle(const RenderRequest& what, const Clock& clock, double last)
     const double cycles = *what.cycle + what.phase;
     const std::int64_t step = clock.step_at(cycles), end = std::llround(last / clock.step);
     if (step > end)
-        throw UserError(fmt::format("--cycle: {:.6g} periods come after the run, which has {:.6g}", cycles,
-                                    clock.cycles(end)));
+        throw UserError("--cycle: {:.6g} periods come after the run, which has {:.6g}", cycles,
+                        clock.cycles(end));
     return clock.time(step);
 }
 
@@ -64,8 +64,8 @@ void check_times(const RenderRequest& what, const StateArchive& run, double last
     if (what.from) run.check_time("--from", *what.from, last, run.usual_slack(*what.from));
     if (what.to) run.check_time("--to", *what.to, last, run.usual_slack(*what.to));
     if (what.from && what.to && *what.from > *what.to)
-        throw UserError(fmt::format("--from: {:.6g} s is later than --to, {:.6g} s; exchange the two",
-                                    *what.from, *what.to));
+        throw UserError("--from: {:.6g} s is later than --to, {:.6g} s; exchange the two", *what.from,
+                        *what.to);
 }
 
 std::vector<State> chosen_moments(const RenderRequest& what, const StateArchive& run) {
@@ -74,9 +74,8 @@ std::vector<State> chosen_moments(const RenderRequest& what, const StateArchive&
     for (const std::size_t k : run.between(what.from, what.to, what.every.value_or(1)))
         chosen.push_back(moments[k]);
     if (chosen.empty())
-        throw UserError(fmt::format("{}: no frame of the run lies there; they go from {:.6g} to {:.6g} s",
-                                    what.from ? "--from" : "--to", moments.front().time,
-                                    moments.back().time));
+        throw UserError("{}: no frame of the run lies there; they go from {:.6g} to {:.6g} s",
+                        what.from ? "--from" : "--to", moments.front().time, moments.back().time);
     return alike(chosen, run.periods());
 }
 

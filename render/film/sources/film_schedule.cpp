@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "engine/files/measures_csv.hpp"
 #include "render/film/sampling/film_frames.hpp"

@@ -221,7 +221,7 @@ void LiveShots::read_wear_before() {
     std::vector<MeshWear> none;
     for (const SceneMesh& mesh : scene_.meshes) {
         const auto triangles = mesh.shape().triangles.size();
-        none.push_back({std::vector<double>(triangles, kNoValue), std::vector<double>(triangles, 0.0)});
+        none.push_back({std::vector<double>(triangles, kUnknown), std::vector<double>(triangles, 0.0)});
     }
     worn_ = std::make_shared<const std::vector<MeshWear>>(std::move(none));
 }

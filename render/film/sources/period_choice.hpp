@@ -2,7 +2,6 @@
 // means over such periods.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>

@@ -32,9 +32,9 @@ void check_sets(const Assignments& sets) {
         if (key.rfind("film.", 0) == 0 || of_species || key == "run.threads") continue;
         if (key == "title") throw UserError("--set title: a film drawn again has its title in film.title");
         throw UserError(
-            fmt::format("{}: the run is over; only keys of [film] and the colours of species "
-                        "can be changed, or run the scene again with `movie`",
-                        set.place()));
+            "{}: the run is over; only keys of [film] and the colours of species "
+            "can be changed, or run the scene again with `movie`",
+            set.place());
     }
 }
 
@@ -63,9 +63,8 @@ Assignments with_range_of_frames(const fs::path& folder, Assignments sets) {
     }
     if (by == nullptr) return sets;
     if (import_lacks(folder, by->value()))
-        throw UserError(
-            fmt::format("{}: the files say nothing of \"{}\", or nothing but 0; colour by something else",
-                        by->place(), by->value()));
+        throw UserError("{}: the files say nothing of \"{}\", or nothing but 0; colour by something else",
+                        by->place(), by->value());
     if (has_range) return sets;
     if (const auto range = imported_range(folder, by->value()))
         sets.push_back(
@@ -111,8 +110,8 @@ FilmedRun open_filmed(const fs::path& path, const Assignments& sets, StoredRunRe
     };
     filmed.run = std::make_unique<StoredRun>(path, request);
     if (!has_scene && !sets.empty())
-        throw UserError(fmt::format("{}: there is no scene.toml beside {}, so nothing of it can be set",
-                                    sets.front().place(), path.string()));
+        throw UserError("{}: there is no scene.toml beside {}, so nothing of it can be set",
+                        sets.front().place(), path.string());
     if (!has_scene) {
         static_cast<Scene&>(filmed.scene) = filmed.run->known_scene();
         filmed.scene.colours.resize(filmed.scene.species.size());
@@ -134,9 +133,9 @@ std::optional<double> reach_of(const State& frame) {
     for (std::size_t i = 0; i < frame.size(); ++i) tops.push_back(frame.position[i].z() + frame.radius[i]);
     if (tops.empty()) return {};
     const auto higher = static_cast<std::ptrdiff_t>(strays * static_cast<double>(tops.size()));
-    const auto at = tops.end() - 1 - higher;
-    std::nth_element(tops.begin(), at, tops.end());
-    return *at;
+    const auto top = tops.end() - 1 - higher;
+    std::nth_element(tops.begin(), top, tops.end());
+    return *top;
 }
 
 std::optional<double> known_reach(const StateArchive& archive) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/lists.hpp"
 #include "engine/questions/snapshot.hpp"
 #include "engine/state/container_faces.hpp"
 
@@ -61,7 +62,7 @@ std::vector<std::uint8_t> FilmColours::of(std::size_t index, Shot& frame,
     const std::vector<double>& values = quantities_.of(frame);
     std::transform(values.begin(), values.end(), bytes.begin(), [&](double value) { return byte_of(value); });
     for (std::size_t i = 0; i < bytes.size() && !species_.empty(); ++i)
-        if (std::find(species_.begin(), species_.end(), frame.species[i]) == species_.end()) bytes[i] = 0;
+        if (!contains(species_, frame.species[i])) bytes[i] = 0;
     return bytes;
 }
 

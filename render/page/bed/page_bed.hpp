@@ -13,7 +13,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/files/frames/state_archive.hpp"

@@ -108,17 +108,14 @@ std::vector<Edge> edges_of(const MeshShape& shape, const ThinnedMesh& thin, std:
     std::vector<Edge> edges;
     for (const MeshShape::Edge& edge : shape.edges) {
         if (!edge.feature) continue;
-        const std::int32_t a = thin.vertex_into[static_cast<std::size_t>(edge.from)],
-                           b = thin.vertex_into[static_cast<std::size_t>(edge.to)];
+        const std::int32_t a = thin.vertex_into[edge.from], b = thin.vertex_into[edge.to];
         if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
     }
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     if (edges.size() <= most) return edges;
     const auto length = [&](const Edge& edge) {
-        return (thin.mesh.vertices[static_cast<std::size_t>(edge[1])] -
-                thin.mesh.vertices[static_cast<std::size_t>(edge[0])])
-            .squaredNorm();
+        return (thin.mesh.vertices[edge[1]] - thin.mesh.vertices[edge[0]]).squaredNorm();
     };
     std::stable_sort(edges.begin(), edges.end(),
                      [&](const Edge& a, const Edge& b) { return length(a) > length(b); });
@@ -135,7 +132,7 @@ std::vector<TriangleMesh::Triangle> triangles_of(const MeshShape& shape, const T
     std::vector<TriangleMesh::Triangle> solid, glass, sided;
     for (std::size_t t = 0; t < thin.mesh.triangles.size(); ++t) {
         TriangleMesh::Triangle corners = thin.mesh.triangles[t];
-        const auto [front, back] = shape.sides[static_cast<std::size_t>(thin.triangle_from[t])];
+        const auto [front, back] = shape.sides[thin.triangle_from[t]];
         if (front != Face::glass && back != Face::glass)
             solid.push_back(corners);
         else if (front == Face::glass && back == Face::glass)
@@ -231,9 +228,9 @@ using Triangle = TriangleMesh::Triangle;
 double area_of(const TriangleMesh& mesh) {
     double area = 0;
     for (const Triangle& t : mesh.triangles) {
-        const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-        const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-        const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+        const Vec3& a = mesh.vertices[t[0]];
+        const Vec3& b = mesh.vertices[t[1]];
+        const Vec3& c = mesh.vertices[t[2]];
         area += 0.5 * (b - a).cross(c - a).norm();
     }
     return area;
@@ -246,26 +243,25 @@ ThinnedMesh clustered(const TriangleMesh& mesh, const Vec3& low, double cell) {
     std::unordered_map<std::uint64_t, std::int32_t> cells;
     std::vector<double> members;
     for (const Vec3& vertex : mesh.vertices) {
-        const Vec3 at = (vertex - low) / cell;
+        const Vec3 in_cells = (vertex - low) / cell;
         std::uint64_t key = 0;
-        for (const double part : {at.x(), at.y(), at.z()})
+        for (const double part : {in_cells.x(), in_cells.y(), in_cells.z()})
             key = key << 21 | static_cast<std::uint64_t>(std::clamp(part, 0.0, 2097151.0));
-        const auto found = cells.try_emplace(key, static_cast<std::int32_t>(members.size())).first;
-        const auto into = static_cast<std::size_t>(found->second);
+        const auto slot = cells.try_emplace(key, static_cast<std::int32_t>(members.size())).first;
+        const auto into = static_cast<std::size_t>(slot->second);
         if (into == members.size()) {
             members.push_back(0);
             thin.mesh.vertices.emplace_back(0, 0, 0);
         }
         members[into] += 1;
         thin.mesh.vertices[into] += vertex;
-        thin.vertex_into.push_back(found->second);
+        thin.vertex_into.push_back(slot->second);
     }
     for (std::size_t i = 0; i < members.size(); ++i) thin.mesh.vertices[i] /= members[i];
     std::set<Triangle> seen;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         Triangle corners;
-        for (std::size_t k = 0; k < 3; ++k)
-            corners[k] = thin.vertex_into[static_cast<std::size_t>(mesh.triangles[t][k])];
+        for (std::size_t k = 0; k < 3; ++k) corners[k] = thin.vertex_into[mesh.triangles[t][k]];
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
         Triangle sorted = corners;
         std::sort(sorted.begin(), sorted.end());

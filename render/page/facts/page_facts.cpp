@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/lists.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/page/bed/slabs.hpp"
 #include "render/picture/base/colour_scale.hpp"
@@ -85,17 +86,13 @@ Json meshes_json(const PageMeshes& meshes) {
     return list;
 }
 
-bool holds(const std::vector<std::size_t>& list, std::size_t number) {
-    return std::find(list.begin(), list.end(), number) != list.end();
-}
-
 Json species_json(const FilmedScene& scene) {
     Json list = Json::array();
     for (std::size_t k = 0; k < scene.species.size(); ++k)
         list.push_back({{"name", scene.species[k].name},
                         {"colour", of_colour(scene.colours[k])},
-                        {"hidden", holds(scene.film.shows.hidden, k)},
-                        {"ghost", holds(scene.film.shows.ghosts, k)}});
+                        {"hidden", contains(scene.film.shows.hidden, k)},
+                        {"ghost", contains(scene.film.shows.ghosts, k)}});
     return list;
 }
 
@@ -206,8 +203,7 @@ Json measures_json(const MeasureTable& table, const PageMeasures& measures,
                    const std::vector<std::size_t>& wanted) {
     std::vector<std::size_t> shown = {measures.time};
     shown.insert(shown.end(), wanted.begin(), wanted.end());
-    if (measures.cycles && std::find(wanted.begin(), wanted.end(), *measures.cycles) == wanted.end())
-        shown.push_back(*measures.cycles);
+    if (measures.cycles && !contains(wanted, *measures.cycles)) shown.push_back(*measures.cycles);
     Json columns = Json::array(), values = Json::array();
     for (const std::size_t column : shown) {
         columns.push_back(column_json(measures.columns[column]));

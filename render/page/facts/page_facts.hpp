@@ -1,7 +1,6 @@
 // Makes the JSON that the page's scripts read.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "engine/measure/measures.hpp"

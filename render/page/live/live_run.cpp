@@ -18,6 +18,7 @@
 #include "render/film/sources/recorded_scene.hpp"
 #include "render/page/embed.hpp"
 #include "render/page/facts/page_facts.hpp"
+#include "render/page/facts/methods.hpp"
 #include "render/page/page_film.hpp"
 #include "render/page/page_measures.hpp"
 #include "render/page/page_parts.hpp"
@@ -84,8 +85,7 @@ std::string LiveRun::title() const {
 }
 
 void LiveRun::refresh() {
-    std::error_code ignored;
-    gone_ = !fs::is_directory(folder_, ignored);
+    gone_ = !is_folder(folder_);
     if (!gone_) {
         status_ = read_run_json(folder_ / "run.json").status;
         over_ = !FolderLock::holder(folder_).has_value();
@@ -216,20 +216,18 @@ double LiveRun::remaining(double time, double end) const {
 
 // live.js reads the members of the state by these names.
 void LiveRun::make_state() {
-    std::error_code ignored;
     const double end = scene_ ? scene_->run.duration : 0;
     const bool begun = rows_ > 0;
     const double share = begun && end > begin_ ? std::clamp((time_ - begin_) / (end - begin_), 0.0, 1.0) : 0;
     const std::string stage = gone_                  ? "gone"
                               : status_ == "running" ? (begun ? "running" : "packing")
                                                      : status_;
-    nlohmann::json state = {
-        {"stage", stage},   {"over", over_ || gone_ || last_},
-        {"last", last_},    {"begin", begin_},
-        {"time", time_},    {"end", end},
-        {"done", share},    {"picture", pictures_},
-        {"bed", bed_step_}, {"bed_time", bed_time_},
-        {"rows", rows_},    {"report", !gone_ && fs::exists(folder_ / kPageName, ignored)}};
+    nlohmann::json state = {{"stage", stage},   {"over", over_ || gone_ || last_},
+                            {"last", last_},    {"begin", begin_},
+                            {"time", time_},    {"end", end},
+                            {"done", share},    {"picture", pictures_},
+                            {"bed", bed_step_}, {"bed_time", bed_time_},
+                            {"rows", rows_},    {"report", !gone_ && is_there(folder_ / kPageName)}};
     const double left = begun ? remaining(time_, end) : -1;
     state["remaining"] = left >= 0 ? nlohmann::json(left) : nlohmann::json();
     auto text = shared(state.dump());

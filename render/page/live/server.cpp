@@ -2,7 +2,6 @@
 
 #include <arpa/inet.h>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <microhttpd.h>
 #include <netdb.h>
 #include <netinet/in.h>
@@ -189,21 +188,18 @@ Addresses addresses_of(const std::string& host, int port) {
     addrinfo* found = nullptr;
     const int code = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found);
     if (code != 0)
-        throw UserError(
-            fmt::format("--watch-host {}: no such host ({}); give a name or an address of this machine", host,
-                        ::gai_strerror(code)));
+        throw UserError("--watch-host {}: no such host ({}); give a name or an address of this machine", host,
+                        ::gai_strerror(code));
     return Addresses(found);
 }
 
 [[noreturn]] void refuse(const std::string& host, int port, int why) {
     if (why == EADDRINUSE)
-        throw UserError(fmt::format(
-            "port {}: another program has it; give another one, or 0 for any that is free", port));
+        throw UserError("port {}: another program has it; give another one, or 0 for any that is free", port);
     if (why == EACCES)
-        throw UserError(
-            fmt::format("port {}: only the system's own programs may have it; give one above 1023", port));
-    throw UserError(fmt::format("--watch-host {}: cannot be listened at: {}; give an address of this machine",
-                                host, std::strerror(why)));
+        throw UserError("port {}: only the system's own programs may have it; give one above 1023", port);
+    throw UserError("--watch-host {}: cannot be listened at: {}; give an address of this machine", host,
+                    std::strerror(why));
 }
 
 bool is_any(const sockaddr* address) {
@@ -218,8 +214,8 @@ bool is_any(const sockaddr* address) {
 Listening::Listening(const std::string& host, int port) {
     const Addresses addresses = addresses_of(host, port);
     if (is_any(addresses->ai_addr))
-        throw UserError(fmt::format(
-            "--watch-host {}: stands for every address; name the one that the others are to use", host));
+        throw UserError("--watch-host {}: stands for every address; name the one that the others are to use",
+                        host);
     socket_ = ::socket(addresses->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (socket_ < 0) refuse(host, port, errno);
     const int yes = 1;
@@ -238,7 +234,7 @@ Listening::Listening(int socket) : socket_(socket) {
     socklen_t size = sizeof listens;
     if (::getsockopt(socket, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) != 0 || listens == 0) {
         socket_ = -1;
-        throw UserError(fmt::format("--socket {}: is no socket that listens", socket));
+        throw UserError("--socket {}: is no socket that listens", socket);
     }
     look();
 }

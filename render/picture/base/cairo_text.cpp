@@ -13,7 +13,7 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/base/own_files.hpp"
+#include "engine/base/system/own_files.hpp"
 #include "render/picture/gl/addresses.hpp"
 
 namespace grainreel {
@@ -313,12 +313,12 @@ void copy_part_on_halo(cairo_surface_t* from, const Rectangle& part, int x, int 
     const std::vector<float> strength = halo_in(from, part, make_stamp(halo.reach));
     const float colour[3] = {static_cast<float>(halo.colour.red), static_cast<float>(halo.colour.green),
                              static_cast<float>(halo.colour.blue)};
-    std::size_t at = 0;
+    std::size_t next = 0;
     for (int j = 0; j < part.height; ++j) {
         const std::uint32_t* row = surface_row(from, part.y + j) + part.x;
         std::uint8_t* out = picture.pixel(x + part.x, y + part.y + j);
         for (int i = 0; i < part.width; ++i, out += 4) {
-            const float left = strength[at++] * (1 - static_cast<float>(row[i] >> 24) / 255);
+            const float left = strength[next++] * (1 - static_cast<float>(row[i] >> 24) / 255);
             for (int c = 0; c < 3; ++c)
                 out[c] = static_cast<std::uint8_t>(static_cast<float>((row[i] >> (16 - 8 * c)) & 255) +
                                                    left * colour[c] + 0.5f);

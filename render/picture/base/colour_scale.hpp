@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "engine/scene/text/units.hpp"
 #include "render/scene/film.hpp"

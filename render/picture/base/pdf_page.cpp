@@ -3,8 +3,6 @@
 #include <cairo-pdf.h>
 #include <cairo.h>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
 #include "render/picture/base/cairo_text.hpp"
 
@@ -81,7 +79,7 @@ std::string PdfPage::finish(const std::string& title) {
     cairo_surface_finish(surface);
     const cairo_status_t status = drawn ? drawn : cairo_surface_status(surface);
     if (status != CAIRO_STATUS_SUCCESS)
-        throw RunError(fmt::format("cannot make the PDF: {}", cairo_status_to_string(status)));
+        throw RunError("cannot make the PDF: {}", cairo_status_to_string(status));
     return std::move(impl_->bytes);
 }
 

@@ -4,6 +4,11 @@
 
 namespace grainreel {
 
+void copy_part(const Picture& from, const Rectangle& part, Picture& to) {
+    for (int y = part.y; y < part.y + part.height; ++y)
+        std::copy_n(from.pixel(part.x, y), 4 * part.width, to.pixel(part.x, y));
+}
+
 void divide_by_alpha(Picture& picture, const Rectangle& port) {
     for (int y = 0; y < port.height; ++y) {
         std::uint8_t* pixel = picture.pixel(port.x, port.y + y);

@@ -35,6 +35,9 @@ struct Picture {
     }
 };
 
+// Copies a part of a picture into another one of the same size.
+void copy_part(const Picture& from, const Rectangle& part, Picture& to);
+
 // Divides colours by alpha. The layers of a picture have colours multiplied by alpha; pictures have plain
 // ones.
 void divide_by_alpha(Picture& picture, const Rectangle& port);

@@ -3,7 +3,6 @@
 #include "render/picture/camera/camera_path.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

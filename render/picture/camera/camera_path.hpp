@@ -2,7 +2,6 @@
 // to show comes from framing.hpp.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 

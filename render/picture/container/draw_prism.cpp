@@ -1,5 +1,4 @@
 // Draws wedge and box: a cross-section in (y, z) that is extended along x.
-#include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <utility>

@@ -52,7 +52,6 @@ class Sketch {
         const Vec3 in_lab = view.orthographic ? Vec3(-view.forward) : Vec3(view.eye - offset_);
         return turned_ ? Vec3(rotation_.conjugate() * in_lab) : in_lab;
     }
-    bool is_turned() const { return turned_; }
     bool is_clear() const { return views_.clear; }
     // How solid a part looks, from 0 for glass to 1. This is decided for the container at rest; otherwise a
     // part whose plane the eye crosses would blink once a period. (A container that turns is taken as it is

@@ -121,7 +121,7 @@ void Ground::tint(const Rectangle& part, Picture& picture) const {
     std::array<std::array<std::uint8_t, 256>, 3> table;
     std::uint32_t last = 0;
     for (int y = part.y; y < part.y + part.height; ++y) {
-        const Colour here = mix(background_, tint_, tone_[static_cast<std::size_t>(y)]);
+        const Colour here = mix(background_, tint_, tone_[y]);
         if (const std::uint32_t now = packed(here); now != last) {
             // The colour of all rows that are packed alike, so that a part is tinted as the whole picture is.
             const std::array<double, 3> colour{whole_levels(here.red), whole_levels(here.green),
@@ -130,8 +130,7 @@ void Ground::tint(const Rectangle& part, Picture& picture) const {
                 for (int v = 0; v < 256; ++v) {
                     const double value = light ? v * colour[c] / plain[c]
                                                : v + (255 - v) * (colour[c] - plain[c]) / (1 - plain[c]);
-                    table[c][static_cast<std::size_t>(v)] =
-                        static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+                    table[c][v] = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
                 }
             last = now;
         }
@@ -203,8 +202,7 @@ Vec3 Ground::seen_at(double x, double y) const {
 }
 
 void Ground::paint(int y, std::uint32_t* pixels) const {
-    std::fill_n(pixels, width_,
-                packed(mix(background_, tint_, tone_[static_cast<std::size_t>(port_.y + y)])));
+    std::fill_n(pixels, width_, packed(mix(background_, tint_, tone_[port_.y + y])));
     shade(y, pixels);
 }
 

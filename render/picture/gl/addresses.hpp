@@ -3,7 +3,6 @@
 // is left.
 #pragma once
 
-#include <fmt/format.h>
 #include <sys/mman.h>
 #include <cstddef>
 
@@ -28,9 +27,9 @@ inline bool has_addresses(std::size_t bytes) {
 // Throws RunError if so many bytes of addresses are not free.
 inline void need_addresses(std::size_t bytes) {
     if (has_addresses(bytes)) return;
-    throw RunError(fmt::format(
+    throw RunError(
         "pictures need {} MB of address space more, and a limit (ulimit -v) leaves less; raise the limit",
-        bytes / 1'000'000));
+        bytes / 1'000'000);
 }
 
 }  // namespace grainreel

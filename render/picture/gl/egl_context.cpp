@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
-#include "engine/base/own_files.hpp"
+#include "engine/base/system/own_files.hpp"
 #include "render/picture/gl/opengl.hpp"
 
 namespace grainreel::gl {

@@ -18,7 +18,7 @@ thread_local Context* current = nullptr;
 }  // namespace
 
 void missing_function(const char* name) {
-    throw RunError(fmt::format("the OpenGL library lacks {}; install one that offers OpenGL 3.3", name));
+    throw RunError("the OpenGL library lacks {}; install one that offers OpenGL 3.3", name);
 }
 
 // Mesa's libraries share the thread's current context without telling each other. So one context is released
@@ -49,7 +49,7 @@ void Context::check_version() const {
     functions_.GetIntegerv(GL_MAJOR_VERSION, &major);
     functions_.GetIntegerv(GL_MINOR_VERSION, &minor);
     if (major * 10 + minor < 33)
-        throw RunError(fmt::format("OpenGL {}.{} is too old to draw with; 3.3 is needed", major, minor));
+        throw RunError("OpenGL {}.{} is too old to draw with; 3.3 is needed", major, minor);
 }
 
 void set_raster_threads(int raster_threads) {
@@ -99,7 +99,7 @@ std::unique_ptr<Context> make_context(Provider provider, int raster_threads) {
         context->set_note("drawn through EGL: " + missing);
         return context;
     } catch (const RunError& error) {
-        throw RunError(fmt::format("no off-screen OpenGL: {}; and {}", missing, error.what()));
+        throw RunError("no off-screen OpenGL: {}; and {}", missing, error.what());
     }
 }
 
@@ -213,8 +213,8 @@ GLuint compile(const Functions& gl, const char* program, GLenum kind, const std:
     gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     gl.DeleteShader(shader);
-    throw RunError(fmt::format("the {} shader of '{}' does not compile: {}",
-                               kind == GL_VERTEX_SHADER ? "vertex" : "fragment", program, log));
+    throw RunError("the {} shader of '{}' does not compile: {}",
+                   kind == GL_VERTEX_SHADER ? "vertex" : "fragment", program, log);
 }
 
 }  // namespace
@@ -244,7 +244,7 @@ Program::Program(const Functions& gl, const char* name, const std::string& verte
     gl_.GetProgramInfoLog(id_, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     gl_.DeleteProgram(id_);
-    throw RunError(fmt::format("the shaders of '{}' do not link: {}", name, log));
+    throw RunError("the shaders of '{}' do not link: {}", name, log);
 }
 
 Program::~Program() {
@@ -267,7 +267,7 @@ Framebuffer::Framebuffer(const Functions& gl, int width, int height, const Textu
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.id(), 0);
     if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
     gl_.DeleteFramebuffers(1, &id_);
-    throw RunError(fmt::format("OpenGL refuses a picture of {}x{}; ask for a smaller one", width, height));
+    throw RunError("OpenGL refuses a picture of {}x{}; ask for a smaller one", width, height);
 }
 
 void Framebuffer::bind() const {

@@ -1,8 +1,6 @@
 // Takes grains that are ellipsoids or superquadrics into view coordinates.
 #pragma once
 
-#include <vector>
-
 #include "engine/state/state.hpp"
 #include "render/picture/base/view.hpp"
 #include "render/picture/spheres/light/sphere_layer.hpp"

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 #include "render/picture/base/colour_scale.hpp"
 #include "render/picture/base/picture.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -27,9 +27,9 @@ std::vector<HalfSpace> kept_by_cut(const FilmCut& cut, const State& frame) {
     const Vec3& normal = cut.normal;
     // The cut goes with a floor that shakes, not with one that turns.
     const bool turns = !frame.floor().rotation.isApprox(Quaternion::Identity());
-    const double at = cut.at + (turns ? 0 : normal.dot(frame.floor().place));
-    std::vector<HalfSpace> kept{{-normal, -at}};
-    if (cut.thickness > 0) kept.push_back({normal, at - cut.thickness});
+    const double offset = cut.at + (turns ? 0 : normal.dot(frame.floor().place));
+    std::vector<HalfSpace> kept{{-normal, -offset}};
+    if (cut.thickness > 0) kept.push_back({normal, offset - cut.thickness});
     return kept;
 }
 
@@ -83,8 +83,6 @@ const Shot& ShownGrains::of(const Shot& frame) {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 // J: the energy of translation and of rotation, with the moment of inertia 2/5 m r2 of a solid sphere.
 double kinetic_energy(const State& frame, std::size_t i, double density) {
     const double r = frame.radius[i];
@@ -107,7 +105,7 @@ void Quantities::start_from(const State& frame) {
 
 double Quantities::start_height_of(std::int32_t id) const {
     const auto row = row_of_id(start_id_, id);
-    return row ? start_height_[*row] : none;
+    return row ? start_height_[*row] : kUnknown;
 }
 
 // Contacts may name grains that the frame lacks.
@@ -129,7 +127,7 @@ const std::vector<double>& Quantities::of(const Shot& frame) {
         count_touches(frame, by_ == GrainValue::contact_force);
         return values_;
     }
-    values_.assign(frame.size(), none);
+    values_.assign(frame.size(), kUnknown);
     for (std::size_t i = 0; i < frame.size(); ++i) {
         switch (by_) {
             case GrainValue::speed:

@@ -1,7 +1,6 @@
 // Paints the grains of a frame, and the grains glued to walls, as lit spheres: one layer of the picture.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "engine/base/team.hpp"

@@ -3,7 +3,6 @@
 // (engine/measure/fields).
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "engine/measure/fields/coarse_graining.hpp"

@@ -99,15 +99,10 @@ constexpr double face_on = 0.7;   // cosine: walls beyond it face the eye, and f
 // The vector whose components are three columns of the last row; NaN where there is no such row or column.
 Vec3 last_vector(const Shot& frame, const std::string& name, const std::string& unit) {
     Vec3 vector = Vec3::Constant(std::nan(""));
-    const std::vector<std::string>& columns = frame.measures->columns();
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto found = std::find(columns.begin(), columns.end(), name + "_" + "xyz"[axis] + "_" + unit);
-        if (found == columns.end()) continue;
-        vector[axis] = frame.measures
-                           ->values(static_cast<std::size_t>(found - columns.begin()), frame.measure_rows - 1,
-                                    frame.measure_rows)
-                           .front();
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        if (const auto column = frame.measures->find(name + "_" + "xyz"[axis] + "_" + unit))
+            vector[axis] =
+                frame.measures->values(*column, frame.measure_rows - 1, frame.measure_rows).front();
     return vector;
 }
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "engine/scene/text/units.hpp"
 #include "render/picture/grains/shown_grains.hpp"

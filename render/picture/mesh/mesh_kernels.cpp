@@ -3,7 +3,6 @@
 #include "render/picture/mesh/mesh_kernels.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE

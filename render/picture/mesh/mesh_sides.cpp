@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/lists.hpp"
 #include "engine/mesh/room.hpp"
 
 namespace grainreel {
@@ -63,7 +64,7 @@ class SideFinder {
           small_(1e-6 * (surface.facts().high - surface.facts().low).norm()),
           patch_(smooth_patches(surface, edge_angle)) {
         find_parts();
-        const bool any_closed = std::find(part_closed_.begin(), part_closed_.end(), 1) != part_closed_.end();
+        const bool any_closed = contains(part_closed_, 1);
         if (look_ == MeshLook::vessel && any_closed)
             room_.emplace(std::shared_ptr<const Surface>(std::shared_ptr<void>(), &surface_));
     }
@@ -108,13 +109,13 @@ class SideFinder {
         around_front_.assign(part_seen_.size(), 0);
         around_back_.assign(part_seen_.size(), 0);
         for (std::int32_t t = 0; t < surface_.size(); ++t) {
-            const auto at = static_cast<std::size_t>(t), p = static_cast<std::size_t>(patch_[at]);
+            const auto index = static_cast<std::size_t>(t), p = static_cast<std::size_t>(patch_[index]);
             members_[p].push_back(t);
-            part_of_patch_[p] = static_cast<std::size_t>(part[at]);
+            part_of_patch_[p] = static_cast<std::size_t>(part[index]);
             patch_seen_[p].area += surface_.area(t);
             for (int e = 0; e < 3; ++e)
                 if (surface_.facts().open_edges > 0 && surface_.neighbour(t, e).triangle < 0)
-                    part_closed_[part[at]] = 0;
+                    part_closed_[part[index]] = 0;
         }
         patches_.resize(part_seen_.size());
         for (std::size_t p = 0; p < members_.size(); ++p) patches_[part_of_patch_[p]].push_back(p);

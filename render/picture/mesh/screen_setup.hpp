@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "engine/base/vector.hpp"
 #include "render/picture/mesh/mesh_kernels.hpp"

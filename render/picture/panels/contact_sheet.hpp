@@ -2,7 +2,6 @@
 // header includes nothing of Cairo, since films include it.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 

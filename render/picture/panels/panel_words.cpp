@@ -8,7 +8,6 @@
 #include "engine/measure/columns.hpp"
 #include "render/picture/words/caption_band.hpp"
 #include "render/picture/words/captions.hpp"
-#include "render/picture/words/layout.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {

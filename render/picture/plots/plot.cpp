@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "engine/measure/columns.hpp"
 #include "engine/measure/measures.hpp"
@@ -193,7 +192,7 @@ double Plot::mean_of_period(double cycles, double value) {
     double sum = 0, count = 0;
     for (const auto& [at, one] : period_)
         if (std::isfinite(one)) sum += one, ++count;
-    return cycles >= 1 - hair && count > 0 ? sum / count : kNoValue;
+    return cycles >= 1 - hair && count > 0 ? sum / count : kUnknown;
 }
 
 void Plot::add(Curve& curve, double time, double value) {

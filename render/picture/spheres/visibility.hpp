@@ -6,7 +6,6 @@
 // measurements. The file is hot: time it after a change (`grainreel bench`).
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>

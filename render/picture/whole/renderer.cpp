@@ -33,11 +33,6 @@ std::uint32_t background(const Colour& colour, bool transparent) {
     return byte(colour.red) | byte(colour.green) << 8 | byte(colour.blue) << 16 | 0xff000000u;
 }
 
-void copy(const Picture& from, const Rectangle& part, Picture& to) {
-    for (int y = part.y; y < part.y + part.height; ++y)
-        std::copy_n(from.pixel(part.x, y), 4 * part.width, to.pixel(part.x, y));
-}
-
 }  // namespace
 
 struct Renderer::Impl {
@@ -194,7 +189,7 @@ void Renderer::Impl::point_out(PointedOut what) {
 // Copies the words into a picture. One that has been drawn into before already has most of them.
 void Renderer::Impl::copy_words(Picture& into) const {
     const auto copy = [this](const Picture& from, const Rectangle& part, Picture& to) {
-        grainreel::copy(from, part, to);
+        copy_part(from, part, to);
         if (ground) ground->tint(part, to);
     };
     const bool fits = into.width == words.width && into.height == words.height;

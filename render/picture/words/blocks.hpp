@@ -1,7 +1,7 @@
 // The blocks of words around a picture, the Writer that they write with, and the two gutters that they stand
 // in. A writer without a surface only measures, so that layout and drawing share their code. legend_block.cpp
-// has legend and colour bars, marks.cpp has the legend of the marks, and blocks.cpp has all other blocks.
-// first_gutter.cpp and second_gutter.cpp place the blocks in the gutters.
+// has legend and colour bars, dial_block.cpp the dial, marks.cpp the legend of the marks, and blocks.cpp has
+// all other blocks. first_gutter.cpp and second_gutter.cpp place the blocks in the gutters.
 #pragma once
 
 #include <cairo.h>

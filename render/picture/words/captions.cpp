@@ -193,13 +193,8 @@ namespace {
 std::string text_now(const std::vector<LiveWords>& words, const Shot& frame) {
     return live_text(words, [&](const std::string& name) -> std::optional<double> {
         if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
-        const std::vector<std::string>& columns = frame.measures->columns();
-        const auto column = std::find(columns.begin(), columns.end(), name);
-        GRAINREEL_CHECK(column != columns.end());
-        return frame.measures
-            ->values(static_cast<std::size_t>(column - columns.begin()), frame.measure_rows - 1,
-                     frame.measure_rows)
-            .front();
+        const std::size_t column = frame.measures->find(name).value();
+        return frame.measures->values(column, frame.measure_rows - 1, frame.measure_rows).front();
     });
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/base/lists.hpp"
 #include "render/picture/base/cairo_text.hpp"
 #include "render/picture/words/captions.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -105,8 +106,7 @@ std::string missing_letters_warning(const std::vector<std::pair<std::string, std
     std::vector<std::string> words, packages;
     for (const MissingLetters& one : all) {
         words.push_back(words_of(one));
-        if (std::find(packages.begin(), packages.end(), one.package) == packages.end())
-            packages.push_back(one.package);
+        if (!contains(packages, one.package)) packages.push_back(one.package);
     }
     return fmt::format(
         "{}: no font here has {}, so boxes stand in their place; on Debian: apt-get install {}", place,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/lists.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/scene/keys/bound_key.hpp"
@@ -86,7 +87,7 @@ Parts parts_of(const FilmedScene& scene, const std::vector<std::size_t>& open) {
             parts.locked += locked_seconds(scene, segments[i], start, start + lasts);
         } else {
             parts.in_motion += lasts / segments[i].playback;
-            if (std::find(open.begin(), open.end(), i) != open.end()) {
+            if (contains(open, i)) {
                 parts.slowed += lasts / segments[i].playback;
                 parts.simulated += lasts;
             }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/lists.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/film.hpp"
@@ -211,7 +212,7 @@ void read_film_walls(Document& document, FilmedScene& scene) {
     walls_table().read(document, scene, "film.walls", walls);
     if (walls.coloured()) shorten_records(document, scene.run.duration, scene.output.fields);
     for (const std::string& name : walls.solid)
-        if (std::find(walls.glass.begin(), walls.glass.end(), name) != walls.glass.end())
+        if (contains(walls.glass, name))
             document.fail("film.walls.glass",
                           fmt::format("names \"{}\", which 'solid' names too; take one out", excerpt(name)));
 }

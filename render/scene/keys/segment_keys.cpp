@@ -1,8 +1,6 @@
 // The keys of [[film.segment]]: which stretches of time the film shows, and how fast.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "engine/base/numbers.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/keys/film_keys.hpp"

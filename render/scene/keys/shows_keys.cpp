@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/chapters/drive_keys.hpp"
@@ -178,8 +179,8 @@ void read_condition(Document& document, const Scene& scene, const std::string& p
                                   "write for example \"speed > 20 cm/s\"",
                                   document.written_value(path)));
     condition = {known->second, (*text)[sign] == '>', 0, *text};
-    const std::size_t at = text->find_first_not_of(' ', sign + 1);
-    const std::string value = at == std::string::npos ? "" : text->substr(at);
+    const std::size_t begin = text->find_first_not_of(' ', sign + 1);
+    const std::string value = begin == std::string::npos ? "" : text->substr(begin);
     const Dimension dimension = dimension_of(condition.of);
     if (dimension == Dimension::number) {
         const char* const end = value.data() + value.size();
@@ -307,7 +308,7 @@ void read_shows(Document& document, FilmedScene& scene) {
     read_colour(document, scene);
     mark_table().read(document, scene, "film", shows);
     for (const std::size_t ghost : shows.ghosts)
-        if (std::find(shows.hidden.begin(), shows.hidden.end(), ghost) != shows.hidden.end())
+        if (contains(shows.hidden, ghost))
             document.fail("film.ghost",
                           fmt::format("names \"{}\", which film.hide takes away; keep one of them",
                                       scene.species[ghost].name));

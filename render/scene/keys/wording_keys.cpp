@@ -1,7 +1,6 @@
 // The keys of [film.wording]: a scene's own words in place of the fixed ones.
 #include <fmt/format.h>
 
-#include "engine/base/text.hpp"
 #include "engine/scene/keys/bound_key.hpp"
 #include "render/scene/keys/film_keys.hpp"
 #include "render/scene/wording.hpp"

@@ -1,5 +1,5 @@
 // Tests of the quantities of a grain, each against a formula or against the film's value for the same grain.
-#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -131,7 +131,7 @@ TEST(GrainColumns, TellWhatTheyLack) {
     Cube cube;
     const auto mistake = [&](const std::string& text) {
         try {
-            grains_where(cube.snapshot, text);
+            grains_where(cube.snapshot, Expression(text, GrainVocabulary(cube.snapshot)));
         } catch (const UserError& error) {
             return std::string(error.what());
         }

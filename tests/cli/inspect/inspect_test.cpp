@@ -15,8 +15,8 @@
 
 #include "engine/base/error.hpp"
 #include "engine/questions/answer.hpp"
-#include "engine/questions/expression.hpp"
-#include "engine/questions/grain_columns.hpp"
+#include "engine/questions/expressions/expression.hpp"
+#include "engine/questions/expressions/grain_columns.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/support/small_scene.hpp"
@@ -62,7 +62,9 @@ struct Bed {
     FilmedScene scene = two_species();
     Snapshot snapshot{scene, lattice(), false, lattice()};
 
-    std::size_t count(const std::string& condition) const { return grains_where(snapshot, condition).size(); }
+    std::size_t count(const std::string& condition) const {
+        return grains_where(snapshot, Expression(condition, GrainVocabulary(snapshot))).size();
+    }
     std::string mistake(const std::string& condition) const {
         try {
             count(condition);

@@ -9,6 +9,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/driver/run_files.hpp"
 #include "engine/run/simulation/simulated_bed.hpp"
+#include "engine/start/restart.hpp"
 #include "render/film/codec/png.hpp"
 #include "render/picture/base/shot.hpp"
 #include "render/picture/whole/renderer.hpp"
@@ -115,10 +116,7 @@ TEST(TrafficFilm, GoesOnFromItsCheckpoint) {
     whole.simulation.save_checkpoint(here / "c.grs");
     ASSERT_GT(whole.simulation.traffic().left, 2);
     whole.simulation.advance(2 * quarter);
-    FilmedScene scene = whole.scene;
-    scene.start.method = Start::Method::file;
-    scene.start.file = (here / "c.grs").string();
-    scene.start.keep_clock = true;
+    Scene scene = continued(whole.scene, here / "c.grs");
     SimulatedBed on(scene, whole.plan, 2);
     EXPECT_EQ(on.traffic().came, 2);
     on.pack();

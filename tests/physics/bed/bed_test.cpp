@@ -12,6 +12,7 @@
 #include "engine/scene/scene_file.hpp"
 #include "engine/start/layers.hpp"
 #include "engine/start/radius_growth.hpp"
+#include "engine/start/restart.hpp"
 #include "engine/start/settle.hpp"
 #include "engine/step/grid/neighbours.hpp"
 #include "tests/physics/world.hpp"
@@ -47,11 +48,8 @@ SimulatedBed packed(const Scene& scene, const Plan& plan, int threads) {
 }
 
 // Continues from a checkpoint of the same scene.
-SimulatedBed gone_on(Scene scene, const Plan& plan, const std::filesystem::path& file, int threads) {
-    scene.start.method = Start::Method::file;
-    scene.start.file = file.string();
-    scene.start.keep_clock = true;
-    return packed(scene, plan, threads);
+SimulatedBed gone_on(const Scene& scene, const Plan& plan, const std::filesystem::path& file, int threads) {
+    return packed(continued(scene, file), plan, threads);
 }
 
 TEST(Layers, PutBigGrainsBelowSmallOnesInsideTheContainer) {

@@ -45,10 +45,7 @@ TEST(ChangingDrive, SameBitsOnAnyThreadsAndThroughACheckpointInAChange) {
     const std::int64_t end = plan.steps;  // after the first taps
     whole.advance(end);
     EXPECT_NEAR(whole.measure("cycles"), plan.clock.cycles(end), 0);
-    Scene next = scene;
-    next.start.method = Start::Method::file;
-    next.start.file = (folder / "middle.grs").string();
-    next.start.keep_clock = true;
+    const Scene next = continued(scene, folder / "middle.grs");
     for (const int threads : {1, 2, 3}) {
         SimulatedBed second(next, plan, threads);
         second.pack();

@@ -10,6 +10,7 @@
 #include "engine/measure/columns.hpp"
 #include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/start/restart.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/support/small_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -55,10 +56,7 @@ TEST(EnergyShares, AreTheSameBitsWhenTakenUp) {
     first.save_checkpoint(here / "a.grs");
     first.advance(700);
     for (const int threads : {1, 3}) {
-        Scene next = scene;
-        next.start.method = Start::Method::file;
-        next.start.file = (here / "a.grs").string();
-        next.start.keep_clock = true;
+        const Scene next = continued(scene, here / "a.grs");
         SimulatedBed taken_up(next, plan, threads);
         taken_up.pack();
         taken_up.advance(700);

@@ -9,6 +9,7 @@
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/start/restart.hpp"
 #include "engine/state/container_faces.hpp"
 #include "tests/physics/world.hpp"
 #include "tests/support/small_scene.hpp"
@@ -233,10 +234,7 @@ TEST(WallForcesOfRuns, AreTheSameBitsAtAnyNumberOfThreadsAndWhenTakenUp) {
         whole.pack();
         later_row(whole, plan, 3);
         EXPECT_EQ(later_row(whole, plan, 4), expected) << threads;
-        Scene next = scene;
-        next.start.method = Start::Method::file;
-        next.start.file = (here / "a.grs").string();
-        next.start.keep_clock = true;
+        const Scene next = continued(scene, here / "a.grs");
         SimulatedBed taken_up(next, plan, threads);
         taken_up.pack();
         EXPECT_EQ(later_row(taken_up, plan, 4), expected) << threads;

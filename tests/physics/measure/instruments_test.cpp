@@ -8,6 +8,7 @@
 #include "engine/measure/flow/drift.hpp"
 #include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/start/restart.hpp"
 #include "engine/state/traffic.hpp"
 #include "tests/physics/measure/bed_by_hand.hpp"
 #include "tests/physics/measure/inelastic_block.hpp"
@@ -277,10 +278,7 @@ TEST(Instruments, GoOnFromACheckpointBitByBit) {
     whole.advance(5 * period + period / 3);
     whole.save_checkpoint(here / "broken.grs");
     whole.advance(9 * period);
-    Scene rest = scene;
-    rest.start.method = Start::Method::file;
-    rest.start.file = (here / "broken.grs").string();
-    rest.start.keep_clock = true;
+    const Scene rest = continued(scene, here / "broken.grs");
     SimulatedBed taken_up(rest, make_plan(rest), 2);
     taken_up.pack();
     taken_up.advance(9 * period);

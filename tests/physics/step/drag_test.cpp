@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <initializer_list>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/lab/bench/bench_run.hpp"
 #include "engine/lab/chart/small_world.hpp"
 

@@ -9,6 +9,7 @@
 #include "engine/measure/energy.hpp"
 #include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/start/restart.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/geometry/contact_geometry.hpp"
 #include "engine/step/surroundings.hpp"
@@ -342,10 +343,7 @@ TEST(Outlet, ABedRunsOutAlikeOnAnyNumberOfThreadsAndThroughACheckpoint) {
             EXPECT_GT(run.traffic().left, 10);
         }
         for (const std::filesystem::path& file : {opened, later}) {
-            Scene next = scene;
-            next.start.method = Start::Method::file;
-            next.start.file = file.string();
-            next.start.keep_clock = true;
+            const Scene next = continued(scene, file);
             SimulatedBed on(next, plan, 2);
             on.advance(plan.steps);
             EXPECT_EQ(on.state_hash(), bits) << file;

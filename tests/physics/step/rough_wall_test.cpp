@@ -11,6 +11,7 @@
 #include "engine/measure/walls/wall_faces.hpp"
 #include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/start/restart.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/surroundings.hpp"
 #include "tests/physics/world.hpp"
@@ -262,10 +263,7 @@ TEST(RoughWalls, TheSameBitsAtAnyNumberOfThreadsAndThroughACheckpoint) {
         for (const char* column : {"left_slant_force_z_N", "floor_force_z_N", "front_moment_y_N.m"})
             EXPECT_EQ(whole.measure(column), first.measure(column)) << threads << column;
         EXPECT_EQ(whole.contacts(), first.contacts()) << threads;
-        Scene next = scene;
-        next.start.method = Start::Method::file;
-        next.start.file = (here / "a.grs").string();
-        next.start.keep_clock = true;
+        const Scene next = continued(scene, here / "a.grs");
         SimulatedBed taken_up(next, plan, threads);
         taken_up.pack();
         taken_up.advance(plan.steps);

@@ -7,6 +7,7 @@
 #include "engine/run/simulation/simulated_bed.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/scene_file.hpp"
+#include "engine/start/restart.hpp"
 #include "engine/state/container_faces.hpp"
 #include "engine/step/surroundings.hpp"
 #include "tests/physics/world.hpp"
@@ -117,10 +118,7 @@ TEST(Tray, TheSameBitsAtAnyNumberOfThreadsAndThroughACheckpoint) {
         whole.pack();
         whole.advance(plan.steps);
         EXPECT_EQ(whole.state_hash(), first.state_hash()) << threads;
-        Scene next = scene;
-        next.start.method = Start::Method::file;
-        next.start.file = (here / "a.grs").string();
-        next.start.keep_clock = true;
+        const Scene next = continued(scene, here / "a.grs");
         SimulatedBed taken_up(next, plan, threads);
         taken_up.pack();
         taken_up.advance(plan.steps);

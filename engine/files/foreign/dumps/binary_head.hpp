@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/frames/stored_world.hpp"
 
 namespace grainreel {

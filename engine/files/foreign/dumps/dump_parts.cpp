@@ -43,7 +43,7 @@ std::size_t BoxReader::wanted() const {
 
 std::string BoxReader::take(std::string_view line) {
     WordReader words(line);
-    std::array<double, 4>& row = rows_[static_cast<std::size_t>(lines_++)];
+    std::array<double, 4>& row = rows_[lines_++];
     std::size_t count = 0;
     for (std::string_view word = words.next_in_line(); !word.empty(); word = words.next_in_line(), ++count) {
         const std::optional<double> number = number_in(word);

@@ -15,8 +15,8 @@
 
 #include "engine/base/binary.hpp"
 #include "engine/base/error.hpp"
-#include "engine/base/own_folder.hpp"
 #include "engine/base/plain_file.hpp"
+#include "engine/base/system/own_folder.hpp"
 
 namespace grainreel {
 
@@ -44,15 +44,14 @@ bool Growth::look() {
     const FileState now = bytes.state();
     if (now == state_) return false;
     if (!now.same_file(state_))
-        throw UserError(fmt::format("{}: another file has this name now; begin again with it", shown(file_)));
+        throw UserError("{}: another file has this name now; begin again with it", shown(file_));
     if (now.size < state_.size)
         throw UserError(
-            fmt::format("{}: became shorter, from {} to {} bytes, while it was followed; begin again with "
-                        "it",
-                        shown(file_), state_.size, now.size));
+            "{}: became shorter, from {} to {} bytes, while it was followed; begin again with "
+            "it",
+            shown(file_), state_.size, now.size);
     if (hash_before(bytes, state_.size, compared) != end_hash_)
-        throw UserError(
-            fmt::format("{}: was written anew while it was followed; begin again with it", shown(file_)));
+        throw UserError("{}: was written anew while it was followed; begin again with it", shown(file_));
     state_ = now;
     end_hash_ = hash_before(bytes, state_.size, compared);
     return true;

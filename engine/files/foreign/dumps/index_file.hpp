@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/dumps/text_index.hpp"
 
 namespace grainreel {

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/dumps/binary_head.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
@@ -26,7 +26,7 @@ class LammpsBinary : public RawFile {
   public:
     explicit LammpsBinary(const fs::path& file) : RawFile(file), packing_(packing_of(file)), growth_(file) {
         const std::optional<BinaryForm> form = binary_form_of(unpacked_head(file).bytes);
-        if (!form) throw UserError(fmt::format("{}: is no binary dump of LAMMPS", shown(file)));
+        if (!form) throw UserError("{}: is no binary dump of LAMMPS", shown(file));
         form_ = *form;
         look_for_frames();
         if (index_.frames.empty()) refuse_without_frame();
@@ -112,9 +112,9 @@ void LammpsBinary::look_for_frames() {
 
 void LammpsBinary::refuse_without_frame() const {
     throw UserError(
-        fmt::format("{}: no frame of this file is whole: the first one claims {} grains, and the file has {} "
-                    "bytes; copy it again",
-                    shown(file_), index_.cut_rows, growth_.state().size));
+        "{}: no frame of this file is whole: the first one claims {} grains, and the file has {} "
+        "bytes; copy it again",
+        shown(file_), index_.cut_rows, growth_.state().size);
 }
 
 RawFrame LammpsBinary::read_frame(ByteSource& source, const BinaryFrame& frame) const {

@@ -10,7 +10,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
 #include "engine/files/foreign/dumps/text_index.hpp"
@@ -134,9 +134,9 @@ void LammpsText::refuse_yaml() const {
     const FileStart head = unpacked_head(file_);
     if (head.bytes.starts_with("---"))
         throw UserError(
-            fmt::format("{}: a dump in YAML (dump yaml), which is not read; let LAMMPS write dump custom, or "
-                        "write it anew by rerun",
-                        shown(file_)));
+            "{}: a dump in YAML (dump yaml), which is not read; let LAMMPS write dump custom, or "
+            "write it anew by rerun",
+            shown(file_));
 }
 
 void LammpsText::find_frames() {
@@ -154,10 +154,9 @@ void LammpsText::find_frames() {
 }
 
 void LammpsText::refuse_without_frame() const {
-    if (!index_.cut) throw NotYetWhole(fmt::format("{}: holds no frame", shown(file_)));
-    throw NotYetWhole(
-        fmt::format("{}:{}: no frame of this file is whole, neither is the one that begins here: {}",
-                    shown(file_), index_.cut->line, cut_words()));
+    if (!index_.cut) throw NotYetWhole("{}: holds no frame", shown(file_));
+    throw NotYetWhole("{}:{}: no frame of this file is whole, neither is the one that begins here: {}",
+                      shown(file_), index_.cut->line, cut_words());
 }
 
 // Says why the frame at the end is not whole.

@@ -9,7 +9,7 @@
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/decimal.hpp"
+#include "engine/files/foreign/bytes/decimal.hpp"
 #include "engine/files/foreign/dumps/dump_parts.hpp"
 
 namespace grainreel {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/files/foreign/line_reader.hpp"
+#include "engine/files/foreign/bytes/line_reader.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {

@@ -10,9 +10,10 @@
 #include <system_error>
 
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/h5md/hdf5_file.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/netcdf/hdf5_trial.hpp"

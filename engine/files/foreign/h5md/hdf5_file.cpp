@@ -74,7 +74,7 @@ std::string fault_of_storage(hid_t properties, std::uint64_t bytes, std::uint64_
     std::array<hsize_t, H5S_MAX_RANK> lengths{};
     const int rank = H5Pget_chunk(properties, H5S_MAX_RANK, lengths.data());
     std::uint64_t chunk = item;
-    for (int k = 0; k < rank; ++k) chunk = product(chunk, lengths[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < rank; ++k) chunk = product(chunk, lengths[k]);
     // A piece is unpacked as a whole, so one that is much larger than its table is a trap.
     if (chunk > kLargestChunk || chunk > product(size, packing) || chunk > product(bytes, 4) + kUsualChunk)
         return fmt::format(

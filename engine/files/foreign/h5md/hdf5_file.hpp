@@ -4,7 +4,6 @@
 // first (hdf5_trial.hpp), and only one thread at a time may use it (hdf5_library()).
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>

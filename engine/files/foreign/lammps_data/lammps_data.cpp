@@ -12,10 +12,11 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
+#include "engine/files/foreign/bytes/line_reader.hpp"
 #include "engine/files/foreign/lammps_data/data_columns.hpp"
-#include "engine/files/foreign/line_reader.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
 
@@ -193,7 +194,7 @@ void LammpsDataFile::take_vector(const std::vector<std::string_view>& words) {
     if (words.back() == "origin")
         box_.origin = vector;
     else
-        box_.edges[static_cast<std::size_t>(words.back().front() - 'a')] = vector;
+        box_.edges[words.back().front() - 'a'] = vector;
 }
 
 template <typename Take>

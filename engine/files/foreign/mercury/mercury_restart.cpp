@@ -15,11 +15,12 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/triangle_mesh.hpp"
 #include "engine/base/vector.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/line_reader.hpp"
+#include "engine/files/foreign/bytes/line_reader.hpp"
 #include "engine/files/foreign/mercury/plane_in_box.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
@@ -73,9 +74,9 @@ class RestartLine {
     // The numbers after a key, whose case does not matter; null unless there are exactly `count` of them. If
     // a key comes twice, the last one with so many numbers is taken.
     const std::vector<double>* find(std::string_view key, std::size_t count) const {
-        const std::string wanted = lower_case(key);
+        const std::string lower_key = lower_case(key);
         for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry)
-            if (entry->first == wanted && entry->second.size() == count) return &entry->second;
+            if (entry->first == lower_key && entry->second.size() == count) return &entry->second;
         return nullptr;
     }
     std::optional<double> number(std::string_view key) const {

@@ -11,10 +11,11 @@
 #include "engine/base/counted.hpp"
 #include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/lists.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/line_reader.hpp"
+#include "engine/files/foreign/bytes/line_reader.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
@@ -102,7 +103,7 @@ class NumberTable : public RawFile {
 
 NumberTable::NumberTable(const std::filesystem::path& file) : RawFile(file), lines_(file) {
     const std::optional<TableLayout> layout = layout_at(unpacked_head(file));
-    if (!layout) throw UserError(fmt::format("{}:1: is no table of numbers", file.string()));
+    if (!layout) throw UserError("{}:1: is no table of numbers", file.string());
     layout_ = *layout;
     refuse_measures();
     facts_.format = "table of numbers";
@@ -115,14 +116,12 @@ NumberTable::NumberTable(const std::filesystem::path& file) : RawFile(file), lin
 
 // Refuses a measures.csv of a run of grainreel, which has a row for each moment and not for each grain.
 void NumberTable::refuse_measures() const {
-    const auto has = [&](const char* name) {
-        return std::find(layout_.names.begin(), layout_.names.end(), name) != layout_.names.end();
-    };
+    const auto has = [&](const char* name) { return contains(layout_.names, name); };
     if (has("step") && has("time_s") && has("cycles") && !has("x") && !has("x_m"))
-        throw UserError(fmt::format(
+        throw UserError(
             "{}: is the table of measures of a run of ours, a row a moment, and holds no grains; name "
             "the run's folder, or make its charts by: {} report DIR --charts charts",
-            file_.string(), program_call()));
+            file_.string(), program_call());
 }
 
 // Finds the columns of time and step. If two columns fit, the first is taken.
@@ -135,11 +134,11 @@ void NumberTable::find_clocks() {
         const std::string bare = bare_name(name);
         const bool small_t = bare == "t" && name.starts_with('t');  // T would be a temperature
         if (layout_.is_word[i]) continue;
-        if (!time_ && (small_t || std::find(times.begin(), times.end(), bare) != times.end())) {
+        if (!time_ && (small_t || contains(times, bare))) {
             time_ = i;
             time_unit_ = unit_size_in(unit_of_name(name), Dimension::time).value_or(1);
         }
-        if (!step_ && std::find(steps.begin(), steps.end(), bare) != steps.end()) step_ = i;
+        if (!step_ && contains(steps, bare)) step_ = i;
     }
     RawTable named;
     for (const std::string& name : layout_.names) named.columns.push_back({name, {}, {}});
@@ -245,8 +244,8 @@ void NumberTable::find_frames() {
     const std::string name = file_.string();
     const bool many = frames_.size() > 1;
     if (!whole && !many)
-        throw UserError(fmt::format("{}:{}: the file ends within a row; was it copied or written to the end?",
-                                    name, line_.number));
+        throw UserError("{}:{}: the file ends within a row; was it copied or written to the end?", name,
+                        line_.number);
     if (many && (!whole || !shut)) {
         news_.push_back(
             fmt::format("{}: its last frame is cut off in line {} and is left out", name, line_.number));

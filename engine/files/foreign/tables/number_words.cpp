@@ -78,10 +78,10 @@ const char* name_of_wrong(CellKind kind) {
 }
 
 bool ColumnFiller::add_word(std::string_view word) {
-    auto found = numbers_.find(word);
-    if (found == numbers_.end())
-        found = numbers_.emplace(std::string(word), static_cast<double>(numbers_.size())).first;
-    column_.values.push_back(found->second);
+    auto entry = numbers_.find(word);
+    if (entry == numbers_.end())
+        entry = numbers_.emplace(std::string(word), static_cast<double>(numbers_.size())).first;
+    column_.values.push_back(entry->second);
     return true;
 }
 

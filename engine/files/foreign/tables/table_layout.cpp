@@ -1,11 +1,12 @@
 #include "engine/files/foreign/tables/table_layout.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "engine/base/lists.hpp"
 #include "engine/base/number_text.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/foreign/names.hpp"
 #include "engine/files/foreign/tables/number_words.hpp"
@@ -83,8 +84,9 @@ std::string name_of(std::string_view cell, std::size_t column) {
         if (cell == fmt::format("Points:{}", axis) || cell == fmt::format("Points_{}", axis))
             return std::string(1, "xyz"[axis]);
     std::string name(cell);
-    for (std::size_t at = name.find("\"\""); at != std::string::npos; at = name.find("\"\"", at + 1))
-        name.erase(at, 1);
+    for (std::size_t quote = name.find("\"\""); quote != std::string::npos;
+         quote = name.find("\"\"", quote + 1))
+        name.erase(quote, 1);
     return name.empty() ? fmt::format("c{}", column + 1) : name;
 }
 
@@ -100,10 +102,10 @@ std::optional<Cells> format_of_yade(const Sample& sample) {
         if (take_word(line) != "#format") continue;
         std::string_view rest = trimmed(line);
         Cells names;
-        for (std::size_t at = rest.find('_');; at = rest.find('_')) {
-            names.push_back({rest.substr(0, at)});
-            if (at == std::string_view::npos) return names;
-            rest.remove_prefix(at + 1);
+        for (std::size_t underscore = rest.find('_');; underscore = rest.find('_')) {
+            names.push_back({rest.substr(0, underscore)});
+            if (underscore == std::string_view::npos) return names;
+            rest.remove_prefix(underscore + 1);
         }
     }
     return std::nullopt;
@@ -131,9 +133,7 @@ void name_by_remarks(TableLayout& layout, const Sample& sample) {
 }
 
 std::string program_of(const TableLayout& layout) {
-    const auto has = [&](const char* name) {
-        return std::find(layout.names.begin(), layout.names.end(), name) != layout.names.end();
-    };
+    const auto has = [&](const char* name) { return contains(layout.names, name); };
     if (!layout.program.empty()) return layout.program;
     if (has("X") && has("Y") && has("Z") && has("r")) return "DEM-Engine";
     if (has("p_x") && has("p_y") && has("diameters")) return "Lethe";
@@ -278,8 +278,7 @@ std::optional<TableLayout> layout_of(std::string_view text, bool whole) {
 }
 
 std::optional<double> cell_number(std::string_view cell, bool decimal_comma) {
-    if (cell.empty() || cell == "NA" || cell == "N/A" || cell == "null" || cell == "NULL")
-        return std::numeric_limits<double>::quiet_NaN();
+    if (cell.empty() || cell == "NA" || cell == "N/A" || cell == "null" || cell == "NULL") return kUnknown;
     if (!decimal_comma || cell.find(',') == std::string_view::npos) return number_in(cell, Dialect::programs);
     std::string with_point(cell);
     if (with_point.find('.') != std::string::npos) return std::nullopt;

@@ -2,7 +2,6 @@
 // cells, how numbers are written and what its columns are called.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/files/foreign/bytes/line_reader.hpp"
 #include "engine/files/foreign/dumps/index_file.hpp"
-#include "engine/files/foreign/line_reader.hpp"
 #include "engine/files/foreign/raw_file.hpp"
 
 namespace grainreel {

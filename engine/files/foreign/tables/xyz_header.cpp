@@ -1,10 +1,8 @@
 #include "engine/files/foreign/tables/xyz_header.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
@@ -74,7 +72,7 @@ std::vector<double> list_of(const std::string& value, const char* key) {
     for (const std::string_view word : words_of(text)) {
         const std::optional<double> number = number_in(word, Dialect::programs);
         if (!number || !std::isfinite(*number))
-            throw UserError(fmt::format("{} has {}, which is no number", key, in_quotes(word)));
+            throw UserError("{} has {}, which is no number", key, in_quotes(word));
         numbers.push_back(*number);
     }
     return numbers;
@@ -88,8 +86,7 @@ void read_lattice(const std::string& value, WorldCell& box) {
     } else if (n.size() == 3) {
         box.edges = {Vec3(n[0], 0, 0), Vec3(0, n[1], 0), Vec3(0, 0, n[2])};
     } else {
-        throw UserError(
-            fmt::format("Lattice has {} numbers; it is three vectors of three numbers each", n.size()));
+        throw UserError("Lattice has {} numbers; it is three vectors of three numbers each", n.size());
     }
 }
 
@@ -98,23 +95,21 @@ void read_periods(const std::string& value, WorldCell& box) {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c == ',' || c == '[' || c == ']'; }, ' ');
     const std::vector<std::string_view> words = words_of(text);
-    if (words.size() != 3)
-        throw UserError(fmt::format("pbc is {}; it is three of T and F", in_quotes(value)));
+    if (words.size() != 3) throw UserError("pbc is {}; it is three of T and F", in_quotes(value));
     for (std::size_t axis = 0; axis < 3; ++axis)
         box.periodic[axis] = words[axis] == "t" || words[axis] == "true" || words[axis] == "1";
 }
 
 XyzField field_of(std::string_view name, std::string_view kind, std::string_view count) {
     constexpr const char* what = "as in species:S:1:pos:R:3";
-    if (name.empty())
-        throw UserError(fmt::format("Properties has an entry without a name; write it {}", what));
+    if (name.empty()) throw UserError("Properties has an entry without a name; write it {}", what);
     if (kind.size() != 1 || std::string_view("SRIL").find(kind.front()) == std::string_view::npos)
-        throw UserError(fmt::format("Properties gives {} the type {}; it is S, R, I or L, {}",
-                                    in_quotes(name), in_quotes(kind), what));
+        throw UserError("Properties gives {} the type {}; it is S, R, I or L, {}", in_quotes(name),
+                        in_quotes(kind), what);
     const std::optional<std::int64_t> columns = whole_in(count);
     if (!columns || *columns < 1 || *columns > static_cast<std::int64_t>(most_columns))
-        throw UserError(fmt::format("Properties gives {} {} columns; it is a number from 1 on, {}",
-                                    in_quotes(name), in_quotes(count), what));
+        throw UserError("Properties gives {} {} columns; it is a number from 1 on, {}", in_quotes(name),
+                        in_quotes(count), what);
     return {std::string(name), kind.front(), static_cast<std::size_t>(*columns)};
 }
 
@@ -132,11 +127,10 @@ std::vector<XyzField> fields_of(std::string_view text) {
     for (std::size_t i = 0; i < parts.size(); i += 3) {
         fields.push_back(field_of(parts[i], parts[i + 1], parts[i + 2]));
         if (fields.back().name == "pos" && fields.back().count > 3)
-            throw UserError(
-                fmt::format("Properties gives pos {} columns; a place has 3", fields.back().count));
+            throw UserError("Properties gives pos {} columns; a place has 3", fields.back().count);
         columns += fields.back().count;
     }
-    if (columns > most_columns) throw UserError(fmt::format("Properties names {} columns", columns));
+    if (columns > most_columns) throw UserError("Properties names {} columns", columns);
     const bool placed = std::any_of(fields.begin(), fields.end(), [](const XyzField& field) {
         return field.name == "pos" && (field.kind == 'R' || field.kind == 'I');
     });
@@ -147,9 +141,9 @@ std::vector<XyzField> fields_of(std::string_view text) {
 // LAMMPS writes "Atoms. Timestep: 1000" into plain XYZ.
 std::optional<std::int64_t> step_of_lammps(std::string_view line) {
     constexpr std::string_view mark = "Timestep:";
-    const std::size_t at = line.find(mark);
-    if (at == std::string_view::npos) return std::nullopt;
-    line.remove_prefix(at + mark.size());
+    const std::size_t place = line.find(mark);
+    if (place == std::string_view::npos) return std::nullopt;
+    line.remove_prefix(place + mark.size());
     return whole_in(take_word(line));
 }
 

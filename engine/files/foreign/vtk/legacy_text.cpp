@@ -102,9 +102,9 @@ std::uint64_t LegacyText::count(const char* what) {
 
 VtkType LegacyText::type(const char* what) {
     const std::string text = word();
-    const auto found = vtk_legacy_type(text);
-    if (!found) refuse(fmt::format("numbers of type \"{}\" for {}, which are not read", excerpt(text), what));
-    return *found;
+    const auto type = vtk_legacy_type(text);
+    if (!type) refuse(fmt::format("numbers of type \"{}\" for {}, which are not read", excerpt(text), what));
+    return *type;
 }
 
 std::uint64_t LegacyText::stored(VtkType type, std::uint64_t count) {

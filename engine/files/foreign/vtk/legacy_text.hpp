@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/files/foreign/content.hpp"
+#include "engine/files/foreign/bytes/content.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
 namespace grainreel {

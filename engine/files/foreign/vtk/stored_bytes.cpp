@@ -32,14 +32,14 @@ constexpr std::array<signed char, 256> letters() {
     std::array<signed char, 256> values{};
     values.fill(no_letter);
     for (int i = 0; i < 26; ++i) {
-        values[static_cast<std::size_t>('A' + i)] = static_cast<signed char>(i);
-        values[static_cast<std::size_t>('a' + i)] = static_cast<signed char>(26 + i);
+        values['A' + i] = static_cast<signed char>(i);
+        values['a' + i] = static_cast<signed char>(26 + i);
     }
-    for (int i = 0; i < 10; ++i) values[static_cast<std::size_t>('0' + i)] = static_cast<signed char>(52 + i);
+    for (int i = 0; i < 10; ++i) values['0' + i] = static_cast<signed char>(52 + i);
     values['+'] = 62;
     values['/'] = 63;
     values['='] = padding;
-    for (const char c : {' ', '\t', '\n', '\r', '\v', '\f'}) values[static_cast<std::size_t>(c)] = blank;
+    for (const char c : {' ', '\t', '\n', '\r', '\v', '\f'}) values[c] = blank;
     return values;
 }
 constexpr std::array<signed char, 256> letter_values = letters();

@@ -18,7 +18,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_parts.hpp"
 #include "engine/files/foreign/vtk/xml_arrays.hpp"
@@ -319,9 +319,8 @@ class VtkCollection : public RawFile {
             return;
         }
         if (parts.grids > 0) pass_over(parts.grid);
-        const RawMoment& found = parts.moment;
-        if (parts.grids > 0 && found.grains == 0 && !found.has_contacts && !found.has_walls &&
-            !parts.frame.box)
+        const RawMoment& held = parts.moment;
+        if (parts.grids > 0 && held.grains == 0 && !held.has_contacts && !held.has_walls && !parts.frame.box)
             return;
         if (!parts.program.empty()) facts_.program = parts.program;
         if (parts.missing > 0 && !said_missing_) {

@@ -3,24 +3,22 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/text.hpp"
 
 namespace grainreel {
 
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
 std::vector<double> gathered(const std::vector<double>& values, std::size_t components, std::size_t component,
                              const VtkRows& rows) {
     std::vector<double> column(rows.count);
     for (std::size_t i = 0; i < rows.count; ++i) {
         const std::size_t tuple = rows.all ? i : rows.tuples[i];
-        column[i] = tuple == kNoTuple ? missing : values[tuple * components + component];
+        column[i] = tuple == kNoTuple ? kUnknown : values[tuple * components + component];
     }
     return column;
 }
@@ -76,9 +74,9 @@ void add_rows(RawTable& table, std::vector<RawColumn>&& columns, std::size_t row
     }
     if (!same_names(table.columns, columns))
         throw UserError(
-            fmt::format("{}: this piece has the columns {}, and those before it have {}; write all of "
-                        "them with the same arrays",
-                        where, names_of(columns), names_of(table.columns)));
+            "{}: this piece has the columns {}, and those before it have {}; write all of "
+            "them with the same arrays",
+            where, names_of(columns), names_of(table.columns));
     for (std::size_t i = 0; i < columns.size(); ++i)
         table.columns[i].values.insert(table.columns[i].values.end(), columns[i].values.begin(),
                                        columns[i].values.end());
@@ -118,7 +116,7 @@ PieceGrains grains_of(const VtkPiece& piece) {
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
         if (!is_vertex(cells.types[cell])) continue;
         for (std::size_t i = cells.begin_of(cell); i < cells.end_of(cell); ++i) {
-            std::size_t& mine = cell_of[static_cast<std::size_t>(cells.corners[i])];
+            std::size_t& mine = cell_of[cells.corners[i]];
             if (mine == kNoTuple) mine = cell;
         }
     }
@@ -197,13 +195,14 @@ void merge_tables(RawTable& table, RawTable&& more) {
     for (RawColumn& column : more.columns) {
         const RawColumn* mine = table.find(column.name);
         if (mine == nullptr || mine->words != column.words) unname_types(column);
-        if (mine == nullptr) table.columns.push_back({column.name, std::vector<double>(table.rows, missing)});
+        if (mine == nullptr)
+            table.columns.push_back({column.name, std::vector<double>(table.rows, kUnknown)});
     }
     for (RawColumn& column : table.columns) {
         const RawColumn* other = more.find(column.name);
         if (other == nullptr || other->words != column.words) unname_types(column);
         if (other == nullptr)
-            column.values.resize(table.rows + more.rows, missing);
+            column.values.resize(table.rows + more.rows, kUnknown);
         else
             column.values.insert(column.values.end(), other->values.begin(), other->values.end());
     }

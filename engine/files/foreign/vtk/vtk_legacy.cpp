@@ -9,7 +9,7 @@
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/vtk/legacy_text.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_xml.hpp"
@@ -144,19 +144,19 @@ class LegacyReader {
 
     void old_cells(std::uint64_t count, std::uint64_t size, LegacyCells& cells) {
         const std::vector<std::int64_t> list = text_.numbers<std::int64_t>(VtkType::int32, size, false);
-        std::size_t at = 0;
+        std::size_t next = 0;
         for (std::uint64_t cell = 0; cell < count; ++cell) {
-            const std::int64_t corners = at < list.size() ? list[at] : -1;
-            if (corners < 0 || static_cast<std::size_t>(corners) > list.size() - at - 1)
+            const std::int64_t corners = next < list.size() ? list[next] : -1;
+            if (corners < 0 || static_cast<std::size_t>(corners) > list.size() - next - 1)
                 text_.refuse(fmt::format("cell {} of {} has no place in a list of {} numbers; {}", cell,
                                          count, size, kWriteAgain));
-            const auto from = list.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+            const auto from = list.begin() + static_cast<std::ptrdiff_t>(next) + 1;
             cells.corners.insert(cells.corners.end(), from, from + corners);
             cells.ends.push_back(static_cast<std::int64_t>(cells.corners.size()));
-            at += static_cast<std::size_t>(corners) + 1;
+            next += static_cast<std::size_t>(corners) + 1;
         }
-        if (at != list.size())
-            text_.refuse(fmt::format("{} numbers are left behind its {} cells; {}", list.size() - at, count,
+        if (next != list.size())
+            text_.refuse(fmt::format("{} numbers are left behind its {} cells; {}", list.size() - next, count,
                                      kWriteAgain));
     }
 
@@ -191,8 +191,8 @@ class LegacyReader {
         if (owner_ != Owner::file && tuples != tuples_)
             text_.refuse(fmt::format("array \"{}\" has {} rows, where {} must be; {}", excerpt(name), tuples,
                                      tuples_, kWriteAgain));
-        const bool wanted = owner_ == Owner::file ? tuples * components == 1 : part_ == VtkPart::all;
-        if (!wanted || components == 0) return text_.skip(type, tuples * components);
+        const bool is_read = owner_ == Owner::file ? tuples * components == 1 : part_ == VtkPart::all;
+        if (!is_read || components == 0) return text_.skip(type, tuples * components);
         VtkArray read{name, components, text_.numbers<double>(type, tuples * components, false)};
         if (owner_ == Owner::file) return file_value(read);
         (owner_ == Owner::points ? piece_.point_data : piece_.cell_data).push_back(std::move(read));

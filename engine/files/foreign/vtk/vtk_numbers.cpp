@@ -12,7 +12,7 @@
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 
 namespace grainreel {
 
@@ -158,8 +158,8 @@ std::string text_of(const VtkPlace& place) {
 }
 
 void refuse_vtk(const VtkPlace& place, const std::string& what) {
-    if (place.array.empty()) throw UserError(fmt::format("{}: {}", text_of(place), what));
-    throw UserError(fmt::format("{}: array \"{}\": {}", text_of(place), excerpt(place.array), what));
+    if (place.array.empty()) throw UserError("{}: {}", text_of(place), what);
+    throw UserError("{}: array \"{}\": {}", text_of(place), excerpt(place.array), what);
 }
 
 std::int64_t line_of_byte(std::string_view text, std::size_t byte) {

@@ -9,7 +9,7 @@
 #include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 #include "engine/files/foreign/vtk/vtk_xml.hpp"
@@ -207,10 +207,10 @@ RawWall wall_of(std::string name, const TriangleMesh& mesh, std::size_t from, st
     for (std::size_t i = from; i < from + count; ++i) {
         TriangleMesh::Triangle triangle = mesh.triangles[i];
         for (std::int32_t& corner : triangle) {
-            std::int32_t& mine = number[static_cast<std::size_t>(corner)];
+            std::int32_t& mine = number[corner];
             if (mine < 0) {
                 mine = static_cast<std::int32_t>(wall.mesh.vertices.size());
-                wall.mesh.vertices.push_back(mesh.vertices[static_cast<std::size_t>(corner)]);
+                wall.mesh.vertices.push_back(mesh.vertices[corner]);
             }
             corner = mine;
         }

@@ -69,8 +69,7 @@ std::vector<std::size_t> mesh_parts(const std::vector<double>& meshid) {
 
 std::vector<RawWall> walls_of(const VtkPiece& piece) {
     if (piece.points >= most_vertices)
-        throw UserError(
-            fmt::format("{}: a surface of {} points; at most 2^31 are read", piece.where, piece.points));
+        throw UserError("{}: a surface of {} points; at most 2^31 are read", piece.where, piece.points);
     std::vector<std::size_t> surfaces;
     for (std::size_t cell = 0; cell < piece.cells.size(); ++cell)
         if (is_surface(piece.cells.types[cell])) surfaces.push_back(cell);
@@ -119,7 +118,7 @@ namespace {
 using Corners = std::span<const std::int64_t>;
 
 [[noreturn]] void refuse_cell(const VtkPiece& piece, std::size_t cell, const std::string& what) {
-    throw UserError(fmt::format("{}: cell {} {}", piece.where, cell, what));
+    throw UserError("{}: cell {} {}", piece.where, cell, what);
 }
 
 void cut_polygon(Corners corners, std::vector<VtkTriangle>& triangles) {
@@ -153,7 +152,7 @@ void cut_solid(const Solid& solid, Corners corners, std::vector<VtkTriangle>& tr
     for (const auto& face : solid.faces) {
         std::vector<std::int64_t> polygon;
         for (const int corner : face)
-            if (corner >= 0) polygon.push_back(corners[static_cast<std::size_t>(corner)]);
+            if (corner >= 0) polygon.push_back(corners[corner]);
         cut_polygon(polygon, triangles);
     }
 }

@@ -7,11 +7,12 @@
 #include <set>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/base/word_reader.hpp"
-#include "engine/files/foreign/byte_source.hpp"
+#include "engine/files/foreign/bytes/byte_source.hpp"
 #include "engine/files/foreign/vtk/vtk_frame.hpp"
 #include "engine/files/foreign/vtk/vtk_numbers.hpp"
 
@@ -242,7 +243,7 @@ void add_poly_cells(const XmlArrays& arrays, const XmlElement& piece, VtkCells& 
 
 // Replaces the corners of polyhedra by their streams of faces.
 void add_faces(const XmlArrays& arrays, const XmlElement& element, VtkCells& cells) {
-    if (std::find(cells.types.begin(), cells.types.end(), VtkCell::polyhedron) == cells.types.end()) return;
+    if (!contains(cells.types, VtkCell::polyhedron)) return;
     if (array_named(element, "faces") == nullptr && array_named(element, "face_connectivity") != nullptr)
         refuse_line(arrays.file(), element.line,
                     "polyhedra in the form of VTK 9.4, which are not read; write the file in an older form");
@@ -322,8 +323,8 @@ void check_cells(const VtkPiece& piece) {
         if (cells.types[cell] == VtkCell::polyhedron) continue;
         for (std::size_t i = cells.begin_of(cell); i < cells.end_of(cell); ++i)
             if (cells.corners[i] < 0 || cells.corners[i] >= static_cast<std::int64_t>(piece.points))
-                throw UserError(fmt::format("{}: cell {} names point {}, and there are {}, from 0; {}",
-                                            piece.where, cell, cells.corners[i], piece.points, kWriteAgain));
+                throw UserError("{}: cell {} names point {}, and there are {}, from 0; {}", piece.where, cell,
+                                cells.corners[i], piece.points, kWriteAgain);
     }
 }
 

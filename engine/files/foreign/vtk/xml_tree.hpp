@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/files/foreign/content.hpp"
+#include "engine/files/foreign/bytes/content.hpp"
 
 namespace grainreel {
 

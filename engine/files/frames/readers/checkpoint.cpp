@@ -1,8 +1,5 @@
 // Reads a checkpoint as one frame: its grains and its scene. The state of the step loop is not read, so no
 // laws are needed. Forces and measures of that moment can be had only by restoring the run.
-#include <cmath>
-
-#include <fmt/format.h>
 
 #include "engine/base/error.hpp"
 #include "engine/base/numbers.hpp"
@@ -21,19 +18,18 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void damaged(const fs::path& file) {
-    throw UserError(fmt::format("{}: is damaged; take another checkpoint", file.string()));
+    throw UserError("{}: is damaged; take another checkpoint", file.string());
 }
 
 CheckpointFile whole_file(const fs::path& path) {
     CheckpointFile file(path);
     switch (file.fault()) {
         case CheckpointFile::Fault::unreadable:
-            throw UserError(
-                fmt::format("{}: cannot be read; give the checkpoint.grs of a run", path.string()));
+            throw UserError("{}: cannot be read; give the checkpoint.grs of a run", path.string());
         case CheckpointFile::Fault::other_version:
-            throw UserError(fmt::format(
+            throw UserError(
                 "{}: is a checkpoint of another version of grainreel; give the final.csv beside it",
-                path.string()));
+                path.string());
         case CheckpointFile::Fault::damaged:
             damaged(path);
         case CheckpointFile::Fault::none:

@@ -6,6 +6,7 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/state_archive.hpp"
 #include "engine/files/outflow_csv.hpp"
@@ -65,11 +66,10 @@ class GrainTable final : public StateArchive {
     void read_scene_beside(const OpenRequest& request) {
         const std::int32_t last = *std::max_element(frame_.species.begin(), frame_.species.end());
         const fs::path beside = file_.parent_path();
-        std::error_code error;
-        if (!fs::exists(beside / "scene.toml", error)) {
+        if (!is_there(beside / "scene.toml")) {
             if (last >= most_types)
-                throw UserError(fmt::format("{}: has grains of type {}; there may be {} types at most",
-                                            file_.string(), last + 1, most_types));
+                throw UserError("{}: has grains of type {}; there may be {} types at most", file_.string(),
+                                last + 1, most_types);
             world_.species = types_of(frame_, last);
             news_.push_back(
                 fmt::format("{}: there is no scene.toml beside it; names, masses and walls are not known",
@@ -81,9 +81,9 @@ class GrainTable final : public StateArchive {
         world_ = world_of(*scene_);
         if (static_cast<std::size_t>(last) >= scene_->species.size())
             throw UserError(
-                fmt::format("{}: has grains of type {}, but the scene.toml beside it has {} species; "
-                            "they are of two runs",
-                            file_.string(), last + 1, scene_->species.size()));
+                "{}: has grains of type {}, but the scene.toml beside it has {} species; "
+                "they are of two runs",
+                file_.string(), last + 1, scene_->species.size());
         check_all_are_there();
     }
 
@@ -94,9 +94,9 @@ class GrainTable final : public StateArchive {
         const auto grains = static_cast<std::int64_t>(frame_.size());
         if (traffic || file_.filename() != kFinalTable || grains == scene_->grains()) return;
         throw UserError(
-            fmt::format("{}: has {}, but the scene.toml beside it has {}; it was cut off, or they "
-                        "are of two runs",
-                        file_.string(), counted(grains, "grain"), scene_->grains()));
+            "{}: has {}, but the scene.toml beside it has {}; it was cut off, or they "
+            "are of two runs",
+            file_.string(), counted(grains, "grain"), scene_->grains());
     }
 
     fs::path file_;

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "engine/base/error.hpp"
+#include "engine/base/plain_file.hpp"
 #include "engine/files/frames/same_run.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/state_archive.hpp"
@@ -28,8 +28,7 @@ class Trajectory final : public StateArchive {
     Trajectory(const fs::path& path, const fs::path& file, std::optional<Scene> scene)
         : path_(path), reader_(file), scene_(std::move(scene)), world_(world_of(reader_.info())) {
         if (reader_.frames() == 0 && scene_)
-            throw UserError(
-                fmt::format("{}: holds no frame yet; the run was stopped before its first", file.string()));
+            throw UserError("{}: holds no frame yet; the run was stopped before its first", file.string());
         if (scene_) compare_with_scene();
         for (std::size_t place = 0; place < reader_.frames(); ++place) {
             try {
@@ -113,9 +112,7 @@ std::unique_ptr<StateArchive> open_trajectory(const fs::path& path, const OpenRe
 }
 
 bool takes_run(const FileStart& head) {
-    std::error_code ignored;
-    return head.folder && (fs::exists(head.path / "scene.toml", ignored) ||
-                           fs::exists(head.path / "trajectory.nc", ignored));
+    return head.folder && (is_there(head.path / "scene.toml") || is_there(head.path / "trajectory.nc"));
 }
 
 std::unique_ptr<StateArchive> open_run(const fs::path& path, const OpenRequest& request) {

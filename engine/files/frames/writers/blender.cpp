@@ -2,7 +2,6 @@
 // moving bed:
 //     blender --python bed.py            (or blender -b --python bed.py -- --render 10 picture.png)
 
-#include <fmt/format.h>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -197,7 +196,7 @@ class Blender final : public StateWriter {
     explicit Blender(const fs::path& folder) : folder_(folder) {
         std::error_code error;
         fs::create_directories(folder_, error);
-        if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
+        if (error) throw RunError("{}: cannot be made: {}", folder_.string(), error.message());
         out_.open(folder_ / "bed.bin", std::ios::binary | std::ios::trunc);
     }
 
@@ -241,15 +240,11 @@ class Blender final : public StateWriter {
         }
         out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         place_ += bytes.size();
-        if (!out_)
-            throw RunError(
-                fmt::format("{}: cannot be written; is the disk full?", (folder_ / "bed.bin").string()));
+        if (!out_) throw RunError("{}: cannot be written; is the disk full?", (folder_ / "bed.bin").string());
     }
     void end() override {
         out_.close();
-        if (!out_)
-            throw RunError(
-                fmt::format("{}: cannot be written; is the disk full?", (folder_ / "bed.bin").string()));
+        if (!out_) throw RunError("{}: cannot be written; is the disk full?", (folder_ / "bed.bin").string());
         TextFile(folder_ / "bed.json").write(head_.dump());
         TextFile(folder_ / "bed.py").write(blender_script());
     }

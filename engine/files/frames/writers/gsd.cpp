@@ -8,8 +8,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
 #include "engine/files/frames/state_writer.hpp"
 #include "engine/state/container_faces.hpp"
@@ -144,7 +142,7 @@ class Gsd final : public StateWriter {
                    : kGlassDensity;
     }
     void check() const {
-        if (!out_) throw RunError(fmt::format("{}: cannot be written; is the disk full?", path_.string()));
+        if (!out_) throw RunError("{}: cannot be written; is the disk full?", path_.string());
     }
     void put(const std::string& bytes) {
         out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

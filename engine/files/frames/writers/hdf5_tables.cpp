@@ -46,7 +46,7 @@ Hdf5Tables::Hdf5Tables(const std::filesystem::path& file) : path_(file) {
 }
 
 void Hdf5Tables::fault() const {
-    throw RunError(fmt::format("{}: cannot be written; is the disk full?", path_.string()));
+    throw RunError("{}: cannot be written; is the disk full?", path_.string());
 }
 
 std::shared_ptr<void> Hdf5Tables::checked(std::shared_ptr<void> handle) const {

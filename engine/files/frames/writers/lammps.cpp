@@ -45,9 +45,8 @@ class LammpsData final : public StateWriter {
             std::max<std::size_t>(1, world_.species.size()));
         const char* names[] = {"xlo xhi", "ylo yhi", "zlo zhi"};
         for (int axis = 0; axis < 3; ++axis)
-            text +=
-                fmt::format("{} {} {}\n", box.origin[axis],
-                            box.origin[axis] + box.edges[static_cast<std::size_t>(axis)][axis], names[axis]);
+            text += fmt::format("{} {} {}\n", box.origin[axis], box.origin[axis] + box.edges[axis][axis],
+                                names[axis]);
         const double xy = box.edges[1].x(), xz = box.edges[2].x(), yz = box.edges[2].y();
         if (xy != 0 || xz != 0 || yz != 0) text += fmt::format("{} {} {} xy xz yz\n", xy, xz, yz);
         const std::int32_t shift = shift_of_ids(world_);

@@ -281,9 +281,7 @@ class Stl final : public StateWriter {
         for (const WorldSurface& surface : surfaces_) {
             const TriangleMesh mesh = moved(surface, *last_);
             for (const TriangleMesh::Triangle& t : mesh.triangles) {
-                const auto corner = [&](std::size_t k) {
-                    return mesh.vertices[static_cast<std::size_t>(t[k])];
-                };
+                const auto corner = [&](std::size_t k) { return mesh.vertices[t[k]]; };
                 const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
                 for (const Vec3& v : {normal, corner(0), corner(1), corner(2)})
                     for (int axis = 0; axis < 3; ++axis) add(rows, static_cast<float>(v[axis]));

@@ -8,8 +8,6 @@
 #include <system_error>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
 #include "engine/files/frames/state_writer.hpp"
 #include "engine/files/frames/stored_world.hpp"
@@ -76,8 +74,8 @@ class Trajectory final : public StateWriter {
             std::error_code error;
             std::filesystem::rename(other, path_, error);
             if (error)
-                throw RunError(fmt::format("{}: cannot be made anew with more places for grains: {}",
-                                           path_.string(), error.message()));
+                throw RunError("{}: cannot be made anew with more places for grains: {}", path_.string(),
+                               error.message());
             info_ = info;
         } catch (...) {
             std::error_code ignored;

@@ -74,7 +74,7 @@ class Vtk final : public VtkWriter {
     explicit Vtk(const fs::path& folder) : folder_(folder) {
         std::error_code error;
         fs::create_directories(folder_, error);
-        if (error) throw RunError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
+        if (error) throw RunError("{}: cannot be made: {}", folder_.string(), error.message());
     }
     void fields(const FieldsReader& fields, const std::vector<std::size_t>& records) override {
         if (fields.names().empty()) return;

@@ -1,5 +1,7 @@
 #include "engine/files/frames/writers/vtk_parts.hpp"
 
+#include "engine/base/numbers.hpp"
+
 namespace grainreel {
 
 namespace {

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/numbers.hpp"
 #include "engine/files/frames/writers/hdf5_tables.hpp"
 #include "engine/files/frames/writers/vtk_parts.hpp"
 #include "engine/files/netcdf/hdf5_trial.hpp"

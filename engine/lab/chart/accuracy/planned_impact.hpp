@@ -2,8 +2,6 @@
 // them. Also moves one contact along a given path.
 #pragma once
 
-#include <string>
-
 #include "engine/lab/chart/small_world.hpp"
 #include "engine/laws/law_kernel.hpp"
 #include "engine/step/lists/histories.hpp"

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/lab/chart/small_world.hpp"
 #include "engine/plan/damping.hpp"
 #include "engine/step/motion/scheme.hpp"
@@ -275,7 +275,7 @@ double promised_restitution_error(const Plan& plan, const PairPlan& pair, const 
                                   const Species* b) {
     constexpr double kFewest = 2, kMost = 1000;  // steps; trying longer contacts takes minutes
     const double steps = pair.contact_time / plan.clock.step;
-    if (!(steps >= kFewest && steps <= kMost)) return std::numeric_limits<double>::quiet_NaN();
+    if (!(steps >= kFewest && steps <= kMost)) return kUnknown;
     PairPlan smooth = pair;
     smooth.model.tangential = TangentialLaw::none;
     smooth.model.rolls = false;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 
 #include "engine/base/error.hpp"
@@ -148,15 +147,15 @@ Finding hard_shaking(bool quick) {
 }  // namespace
 
 std::vector<Experiment> bed_experiments() {
-    const auto silent = Failure::silent;
+    const auto silent = Failing::silent;
     const std::string way = "mean way a period / diameter";
-    return {{"step: bed at rest in a box", "step / sqrt(m/K)", Failure::loud,
+    return {{"step: bed at rest in a box", "step / sqrt(m/K)", Failing::loud,
              "health check; check warns above the stable limit", resting_bed},
             {"creep under sideways shaking (arms to the plane)", way, silent, "none",
              [](bool quick) { return creep(LeverArms::contact_plane, quick); }},
             {"creep under sideways shaking (arms of the radius)", way, silent, "check warns of arms = radius",
              [](bool quick) { return creep(LeverArms::radius, quick); }},
-            {"shaking at 1 to 20 g", "largest overlap / expected", Failure::loud,
+            {"shaking at 1 to 20 g", "largest overlap / expected", Failing::loud,
              "the plan's stiffness; health check", hard_shaking}};
 }
 
@@ -259,7 +258,7 @@ Finding order_of_walls(bool) {
 }  // namespace
 
 std::vector<Experiment> drive_experiments() {
-    const auto silent = Failure::silent;
+    const auto silent = Failing::silent;
     return {
         {"kick without ramp", "speed against the plate / (a omega)", silent,
          "ramp of 3 periods by default; check warns of none", [](bool) { return kick(0); }},
@@ -339,9 +338,9 @@ Finding rounding(bool in_single) {
 }  // namespace
 
 std::vector<Experiment> number_experiments() {
-    return {{"rounding in single precision", "stiffness in N/m", Failure::silent,
+    return {{"rounding in single precision", "stiffness in N/m", Failing::silent,
              "the engine computes in double", [](bool) { return rounding(true); }},
-            {"rounding in double precision", "stiffness in N/m", Failure::silent, "check warns",
+            {"rounding in double precision", "stiffness in N/m", Failing::silent, "check warns",
              [](bool) { return rounding(false); }}};
 }
 

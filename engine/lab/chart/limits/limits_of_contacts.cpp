@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "engine/base/numbers.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/accuracy/single_contact.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
@@ -88,7 +89,7 @@ Finding oblique_sizes(bool quick) {
     Finding finding;
     finding.theory = 1;
     finding.measured = 0;
-    double equal = unknown;
+    double equal = kUnknown;
     for (const double ratio : {1.0, 2.0, 3.0, 5.0, 10.0, 20.0}) {
         ImpactScene impact;
         impact.friction = 0.5;
@@ -122,7 +123,7 @@ Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, 
         const auto known = std::find_if(derived.begin(), derived.end(),
                                         [&](const auto& figure) { return figure.first == steps; });
         finding.curve.push_back(
-            {static_cast<double>(steps), error, known == derived.end() ? unknown : known->second});
+            {static_cast<double>(steps), error, known == derived.end() ? kUnknown : known->second});
         if (steps == 12) {
             finding.theory = known->second;
             finding.measured = error;
@@ -134,7 +135,7 @@ Finding few_steps(double e, const std::vector<std::pair<int, double>>& derived, 
 }  // namespace
 
 std::vector<Experiment> restitution_experiments() {
-    const auto silent = Failure::silent;
+    const auto silent = Failing::silent;
     const std::string plan = "the plan's step", steps = "check warns of too few steps; it prints the error";
     return {
         {"restitution 0.02 to 0.999", "largest error of e", silent, plan, restitutions},
@@ -240,7 +241,7 @@ double soft_energy_left(NormalForce law, double e, double gap) {
 }
 
 Experiment detachment(NormalForce law, double e, const std::string& name) {
-    return {"detachment by " + name, "time of a contact / time between impacts", Failure::silent,
+    return {"detachment by " + name, "time of a contact / time between impacts", Failing::silent,
             "check warns of soft contacts", [=](bool quick) {
                 const double time = pi / 2 * (1 + e) * std::sqrt(0.5 * bench_mass() / bench_stiffness);
                 Finding finding;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/rotation.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
@@ -71,7 +72,7 @@ Finding sticking(bool) {
         const double slip =
             (after.velocity[0].y() + bench_radius * after.spin[0].z()) / (impact.speed * math::sin(pi / 4));
         const double slid = 1 - 3.5 * friction * (1 + e);  // if it slides all the time (small friction)
-        finding.curve.push_back({friction, slip, friction < 0.12 ? slid : friction > 100 ? stuck : unknown});
+        finding.curve.push_back({friction, slip, friction < 0.12 ? slid : friction > 100 ? stuck : kUnknown});
         finding.measured = slip;
     }
     return finding;
@@ -95,7 +96,7 @@ Finding grazing_at_a_wall(double e) {
     for (double degrees = 0; degrees < 90; degrees += degrees < 84 ? 3 : 0.5) {
         const double angle = degrees * pi / 180, ratio = energy_ratio(impact, plan, angle);
         finding.curve.push_back(
-            {degrees, ratio, angle > slides_from ? sliding_energy(e, friction, angle) : unknown});
+            {degrees, ratio, angle > slides_from ? sliding_energy(e, friction, angle) : kUnknown});
         finding.measured = std::max(finding.measured, ratio);
     }
     return finding;
@@ -140,7 +141,7 @@ Finding grazing_in_a_corner(double e, bool quick) {
 }  // namespace
 
 std::vector<Experiment> friction_experiments() {
-    const auto silent = Failure::silent;
+    const auto silent = Failing::silent;
     const std::string guard = "energy watch at 5 % of the turnover", energy = "largest energy after / before";
     return {
         {"friction 0 to 1e6", energy, silent, guard, gain_by_friction},
@@ -282,7 +283,7 @@ double made_by_theory(TangentialLaw law, double low, double high) {
 }
 
 Experiment loop_of(TangentialLaw law, const std::string& name, const std::string& guard) {
-    return {"closed loop of " + name, "largest energy made / work of the slip", Failure::silent, guard,
+    return {"closed loop of " + name, "largest energy made / work of the slip", Failing::silent, guard,
             [law](bool) {
                 constexpr double overlap = 1e-3 * bench_radius;
                 Finding finding;
@@ -337,7 +338,7 @@ Experiment ratchet(LeverArms arms, bool swing) {
     const double theory = plane == swing ? 0 : pi / 2;
     return {std::string(swing ? "ratcheting of a swinging pair " : "ratcheting of a rolling pair ") +
                 (plane ? "(arms to the plane)" : "(arms of the radius)"),
-            "slip a cycle / (overlap x angle)", Failure::silent,
+            "slip a cycle / (overlap x angle)", Failing::silent,
             plane ? "the default" : "check warns of arms = radius", [=](bool) {
                 Finding finding;
                 finding.theory = theory;
@@ -354,8 +355,8 @@ Experiment ratchet(LeverArms arms, bool swing) {
 std::vector<Experiment> path_experiments() {
     const std::string guard = "energy watch at 5 % of the turnover";
     std::vector<Experiment> all = {
-        {"turning pair", "change of |T| / |T| in 20 turns", Failure::silent, "none needed", turning_length},
-        {"twisting pair", "direction error of T in rad a turn of 100 steps", Failure::silent, "none needed",
+        {"turning pair", "change of |T| / |T| in 20 turns", Failing::silent, "none needed", turning_length},
+        {"twisting pair", "direction error of T in rad a turn of 100 steps", Failing::silent, "none needed",
          twisting_direction},
         loop_of(TangentialLaw::linear_spring, "linear-spring", guard),
         loop_of(TangentialLaw::mindlin, "mindlin", guard),

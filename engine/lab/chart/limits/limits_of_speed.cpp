@@ -159,14 +159,14 @@ Finding listing(bool quick) {
 }  // namespace
 
 std::vector<Experiment> speed_experiments() {
-    const auto loud = Failure::loud;
+    const auto loud = Failing::loud;
     return {{"tunnelling through a grain", "speed / ((r_i + r_j) sqrt(K1/m_eff))", loud,
              "health check; check warns from half of it on", through_each_other},
             {"through a wall", "speed / (2 r sqrt(K1/m))", loud, "health check; check warns before",
              through_a_wall},
             {"past each other in one step", "way of a step / (2 (r_i + r_j))", loud,
              "check warns from a tenth of a radius on", past_each_other},
-            {"lists of fast grains", "share of touching pairs listed", Failure::silent,
+            {"lists of fast grains", "share of touching pairs listed", Failing::silent,
              "lists are renewed before forces; no setting", listing}};
 }
 
@@ -325,7 +325,7 @@ Finding drive_near_contact(bool quick) {
 }  // namespace
 
 std::vector<Experiment> softness_experiments() {
-    const auto silent = Failure::silent;
+    const auto silent = Failing::silent;
     return {{"soft column", "frequency x layers sqrt(m/K) where the top moves twice as far", silent,
              "the plan's stiffness; check warns of slow waves", soft_column},
             {"drive as fast as a contact", "frequency x time of a contact where the rebound is 10 % off",

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/base/random.hpp"
 #include "engine/lab/chart/accuracy/planned_impact.hpp"
 #include "engine/lab/chart/limits/stability.hpp"
@@ -70,7 +71,7 @@ Finding find_limit(const Build& build, const Disturbance& disturbance, double th
     Finding finding;
     finding.theory = theory;
     finding.usual = usual_step() / unit();
-    double stable = unknown;
+    double stable = kUnknown;
     for (double share = 0.5; share < 1.3; share += coarse) {
         const double grown = growth(share);
         finding.curve.push_back(
@@ -105,7 +106,7 @@ std::unique_ptr<SmallWorld> column(int count, double plate_stiffness, double ste
 // Two grains between soft plates: omega^2 = (2 K + K_plate) / m.
 Experiment pair_limit(Integrator integrator) {
     constexpr double plate = 0.01;  // stiffness of the plates divided by K
-    return {"step: pair by " + word_of(integrator, integrator_words), "step / sqrt(m/K)", Failure::loud,
+    return {"step: pair by " + word_of(integrator, integrator_words), "step / sqrt(m/K)", Failing::loud,
             "health check; the plan's step; check warns above the stable limit", [=](bool) {
                 return find_limit(
                     [&](double step) { return column(2, plate * bench_stiffness, step, integrator); },
@@ -192,7 +193,8 @@ Finding bed_limit(bool quick, const PairPlan& pair, double theory) {
         return world;
     };
     Finding finding = find_limit(build, {{1, 1, 1}, 1000}, theory);
-    for (CurvePoint& point : finding.curve) point.theory = unknown;  // no curve, because there are many modes
+    for (CurvePoint& point : finding.curve)
+        point.theory = kUnknown;  // no curve, because there are many modes
     return finding;
 }
 
@@ -203,14 +205,14 @@ std::vector<Experiment> step_experiments() {
     const std::string step = "step / sqrt(m/K)";
     std::vector<Experiment> all;
     for (const auto& word : integrator_words) all.push_back(pair_limit(word.second));
-    all.push_back({"step: pair that unloads (e = 0.5)", step, Failure::loud, guard, unloading_limit});
-    all.push_back({"step: tangential spring (K0 = 0.8 K)", step, Failure::loud, guard, sideways_limit});
-    all.push_back({"step: chain of 20", step, Failure::loud, guard, chain_limit});
+    all.push_back({"step: pair that unloads (e = 0.5)", step, Failing::loud, guard, unloading_limit});
+    all.push_back({"step: tangential spring (K0 = 0.8 K)", step, Failing::loud, guard, sideways_limit});
+    all.push_back({"step: chain of 20", step, Failing::loud, guard, chain_limit});
     // Central springs in a face-centred cubic crystal have omega^2 = 8 K / m at most.
-    all.push_back({"step: dense bed (smooth)", step, Failure::loud, guard,
+    all.push_back({"step: dense bed (smooth)", step, Failing::loud, guard,
                    [](bool quick) { return bed_limit(quick, spring(1, 0, 0), 2 / std::sqrt(8.0)); }});
     // Gerschgorin's bound with spins is 40 K0 / m; it need not be reached.
-    all.push_back({"step: dense bed (K0 = 0.8 K)", step, Failure::loud, guard, [](bool quick) {
+    all.push_back({"step: dense bed (K0 = 0.8 K)", step, Failing::loud, guard, [](bool quick) {
                        return bed_limit(quick, spring(1, 1e6, 0.8), 2 / std::sqrt(40 * 0.8));
                    }});
     return all;

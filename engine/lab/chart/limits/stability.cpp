@@ -1,5 +1,6 @@
 #include "engine/lab/chart/limits/stability.hpp"
 
+#include "engine/base/numbers.hpp"
 #include "engine/lab/chart/chart.hpp"
 
 namespace grainreel {
@@ -28,8 +29,8 @@ void add_rows(const Experiment& experiment, const Finding& finding, ResultTable&
             curves.add({name, cell(point.x), cell(point.value), cell(point.theory)});
     const bool compares = finding.theory != 0;
     limits.add({name, experiment.varied, cell(finding.theory), cell(finding.measured),
-                cell(compares ? finding.measured / finding.theory : unknown), cell(finding.usual),
-                experiment.failure == Failure::loud ? "loud" : "silent", experiment.guard});
+                cell(compares ? finding.measured / finding.theory : kUnknown), cell(finding.usual),
+                experiment.failing == Failing::loud ? "loud" : "silent", experiment.guard});
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/lab/chart/chart.hpp"
 #include "engine/scene/scene.hpp"
 
@@ -16,29 +16,27 @@ namespace grainreel {
 // The experiments of the stability chart. Each drives one method until it fails and measures this limit, to
 // be compared with the limit of theory. The source of the theory is given at each experiment.
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 struct CurvePoint {
     double x, value;
-    double theory = unknown;
+    double theory = kUnknown;
 };
 
 // The result of an experiment: the limit in the unit of `Experiment::varied`. If a method has an error
 // instead of a limit, `theory` is the allowed error and `measured` the largest error found.
 struct Finding {
-    double theory = unknown, measured = unknown;
-    double usual = unknown;  // value of the varied quantity in a usual run, if the plan chooses it
+    double theory = kUnknown, measured = kUnknown;
+    double usual = kUnknown;  // value of the varied quantity in a usual run, if the plan chooses it
     std::vector<CurvePoint> curve;
 };
 
 // How a run fails beyond the limit. loud: the health check stops it. silent: nothing stops it; only a warning
 // before the run, or the user's care, helps.
-enum class Failure { loud, silent };
+enum class Failing { loud, silent };
 
 // stability_drawing() picks curves by the names of experiments.
 struct Experiment {
     std::string name, varied;  // varied: the quantity that is varied, with its unit
-    Failure failure;
+    Failing failing;
     std::string guard;  // what protects a user
     std::function<Finding(bool quick)> run;
 };

@@ -1,7 +1,6 @@
 #include "engine/lab/chart/validation/silo.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
 
 #include "engine/base/mathematics.hpp"

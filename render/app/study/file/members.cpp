@@ -1,6 +1,7 @@
 #include "render/app/study/file/members.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <xxhash.h>
 #include <algorithm>
 #include <map>
@@ -252,6 +253,33 @@ std::string setting_named(const Study& study, const Member& member, std::optiona
 }
 
 }  // namespace
+
+std::string variant_names(const Variation& variation) {
+    std::vector<std::string> names;
+    for (const Variation::Value& value : variation.values) names.push_back(value.words);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::vector<bool> members_of_variants(const Study& study, const std::vector<Member>& members,
+                                      const std::vector<std::string>& names) {
+    if (names.empty()) return {};
+    if (!study.has_variants())
+        throw UserError(fmt::format("--variant {}: {} has no [[variant]]; leave it out", names.front(),
+                                    study.file.string()));
+    const Variation& variants = study.variations.front();
+    std::vector<bool> chosen(variants.values.size());
+    for (const std::string& name : names) {
+        const auto variant = std::find_if(variants.values.begin(), variants.values.end(),
+                                          [&](const Variation::Value& one) { return one.words == name; });
+        if (variant == variants.values.end())
+            throw UserError(fmt::format("--variant {}: {} has no such variant; there are {}", name,
+                                        study.file.string(), variant_names(variants)));
+        chosen[static_cast<std::size_t>(variant - variants.values.begin())] = true;
+    }
+    std::vector<bool> of_members;
+    for (const Member& member : members) of_members.push_back(chosen[member.at.front()]);
+    return of_members;
+}
 
 std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without) {
     return setting_named(study, member, without, &Variation::label);

@@ -60,6 +60,13 @@ Member setting_of(const Study& study, std::size_t number);
 using AcceptSetting = std::function<void(const FilmedScene& scene, const Plan& plan)>;
 std::vector<Member> make_members(const Study& study, const AcceptSetting& accept);
 
+// Which members are of the variants with these names, the values of --variant; empty where no name is given.
+// Throws UserError where the study has no such variant.
+std::vector<bool> members_of_variants(const Study& study, const std::vector<Member>& members,
+                                      const std::vector<std::string>& names);
+// "slow, fast, very fast".
+std::string variant_names(const Variation& variation);
+
 // The setting in words: "drive.g_level = 3, species.nut.diameter = 9 mm"; empty when only seeds are varied.
 // without: a variation that is left out.
 std::string setting_text(const Study& study, const Member& member, std::optional<std::size_t> without = {});

@@ -9,10 +9,11 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
-#include "engine/base/program.hpp"
+#include "engine/base/lists.hpp"
+#include "engine/base/plain_file.hpp"
+#include "engine/base/system/program.hpp"
 #include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/scene/chapters/words.hpp"
 #include "engine/scene/keys/keys.hpp"
 #include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
@@ -140,23 +141,23 @@ std::size_t index_of_measure(const Document& document, const Study& study, const
                              const std::string& name) {
     std::vector<std::string> names;
     for (const StudyMeasure& measure : study.measures) names.push_back(measure.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
+    const std::optional<std::size_t> place = place_in(names, name);
+    if (!place)
         document.fail(
             path, fmt::format("must be the name of a [[measure]], but is \"{}\"; there are {}", excerpt(name),
                               names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
-    return static_cast<std::size_t>(found - names.begin());
+    return *place;
 }
 
 std::size_t index_of_variation(const Document& document, const Study& study, const std::string& path,
                                const std::string& key) {
     std::vector<std::string> keys;
     for (const Variation& variation : study.variations) keys.push_back(variation.key);
-    const auto found = std::find(keys.begin(), keys.end(), key);
-    if (found == keys.end())
+    const std::optional<std::size_t> place = place_in(keys, key);
+    if (!place)
         document.fail(path, fmt::format("must be a key that is varied, but is \"{}\"; there are {}",
                                         excerpt(key), fmt::join(keys, ", ")));
-    return static_cast<std::size_t>(found - keys.begin());
+    return *place;
 }
 
 std::size_t usual_x(const Study& study) {
@@ -306,10 +307,8 @@ FilmedScene longest_scene(const Study& study) {
 namespace {
 
 void check_is_there(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
-        throw UserError(
-            fmt::format("{}: there is no such file; give the path of a study (.toml)", file.string()));
+    if (!is_there(file))
+        throw UserError("{}: there is no such file; give the path of a study (.toml)", file.string());
 }
 
 // Refuses a scene, in which nothing is varied.
@@ -317,15 +316,14 @@ void check_no_scene(const Document& document, const std::filesystem::path& file)
     if (document.has("scene") ||
         !(document.has("species") || document.has("container") || document.has("drive")))
         return;
-    throw UserError(fmt::format("{}: this is a scene, not a study; run it by: {} movie {}", file.string(),
-                                program_call(), shell_word(file.string())));
+    throw UserError("{}: this is a scene, not a study; run it by: {} movie {}", file.string(), program_call(),
+                    shell_word(file.string()));
 }
 
 void read_scene_of(Document& document, Study& study) {
     const std::string name = document.required_text("scene");
     study.scene = beside_study(study, name);
-    std::error_code ignored;
-    if (!std::filesystem::exists(study.scene, ignored))
+    if (!is_there(study.scene))
         document.fail("scene",
                       fmt::format("is \"{}\", but there is no such file; its path counts from the study's "
                                   "folder",
@@ -337,7 +335,7 @@ void read_scene_of(Document& document, Study& study) {
 void complete_search(Study& study) {
     StudySearch& search = *study.search;
     const auto fail = [&](const std::string& what) {
-        throw UserError(fmt::format("{}: 'until' is \"{}\", {}", search.place, excerpt(search.words), what));
+        throw UserError("{}: 'until' is \"{}\", {}", search.place, excerpt(search.words), what);
     };
     if (study.variations.size() != 1)
         fail("but a search has one [[vary]] and no [[variant]]; take the others out");
@@ -351,11 +349,11 @@ void complete_search(Study& study) {
     const auto value = written_number(quoted(trimmed(search.words.substr(equals + 1))));
     std::vector<std::string> names;
     for (const StudyMeasure& measure : study.measures) names.push_back(measure.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
+    const std::optional<std::size_t> place = place_in(names, name);
+    if (!place)
         fail(fmt::format("but there is no [[measure]] \"{}\"; there are {}", excerpt(name),
                          names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
-    search.measure = static_cast<std::size_t>(found - names.begin());
+    search.measure = *place;
     const std::string& unit = study.measures[search.measure].unit;
     if (!value || !std::isfinite(value->number) || (!value->unit.empty() && value->unit != unit))
         fail(fmt::format("but the value must be a number{}", unit.empty() ? "" : " in " + unit));
@@ -383,8 +381,8 @@ Study read_study(const std::filesystem::path& file) {
     for (std::size_t i = 0; i < document.size("vary"); ++i)
         read_variation(document, fmt::format("vary[{}]", i), study);
     if (study.variations.empty() && study.seeds.empty())
-        throw UserError(fmt::format(
-            "{}:1:1: varies nothing; write [[vary]] with a key and its values, or seeds = 3", file.string()));
+        throw UserError("{}:1:1: varies nothing; write [[vary]] with a key and its values, or seeds = 3",
+                        file.string());
     const FilmedScene scene = longest_scene(study);
     for (std::size_t i = 0; i < document.size("measure"); ++i)
         read_measure(document, scene, fmt::format("measure[{}]", i), study);

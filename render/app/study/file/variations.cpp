@@ -22,9 +22,9 @@ WrittenNumber required_number(const std::string& toml, const char* key) {
     const auto value = written_number(toml);
     if (!value || !std::isfinite(value->number))
         throw UserError(
-            fmt::format("'{}' must be a number or a quantity, but is {}; write for example {} = "
-                        "\"2 mm\"",
-                        key, toml, key));
+            "'{}' must be a number or a quantity, but is {}; write for example {} = "
+            "\"2 mm\"",
+            key, toml, key);
     return *value;
 }
 
@@ -44,10 +44,9 @@ std::vector<std::string> stepped(double first, double last, double by, const std
     constexpr double rounding = 1e-9;  // share of a step: 0.1 + 0.1 + 0.1 counts as 0.3
     const double steps = std::floor((last - first) / by + rounding);
     if (!(by != 0 && steps >= 0))
-        throw UserError(
-            fmt::format("'by' never leads from {} to {}; give it the sign of the difference", first, last));
+        throw UserError("'by' never leads from {} to {}; give it the sign of the difference", first, last);
     if (steps >= static_cast<double>(most_values))
-        throw UserError(fmt::format("'by' makes more than {} values; make it larger", most_values));
+        throw UserError("'by' makes more than {} values; make it larger", most_values);
     std::vector<std::string> values;
     for (double i = 0; i <= steps; ++i) values.push_back(toml_of({first + i * by, unit}));
     return values;
@@ -93,8 +92,8 @@ std::string toml_of(const WrittenNumber& value) {
 std::vector<std::string> range_values(const ValueRange& range) {
     const WrittenNumber from = required_number(range.from, "from"), to = required_number(range.to, "to");
     if (from.unit != to.unit)
-        throw UserError(fmt::format("'from' and 'to' are in two units, {} and {}; write both in one",
-                                    range.from, range.to));
+        throw UserError("'from' and 'to' are in two units, {} and {}; write both in one", range.from,
+                        range.to);
     if (range.count.has_value() != range.by.empty())
         throw UserError("a range has 'count' or 'by', one of them; write for example count = 5");
     if (range.logarithmic && !(range.count && from.number > 0 && to.number > 0))
@@ -104,8 +103,8 @@ std::vector<std::string> range_values(const ValueRange& range) {
     if (range.count) return spaced(from.number, to.number, *range.count, from.unit, range.logarithmic);
     const WrittenNumber by = required_number(range.by, "by");
     if (by.unit != from.unit)
-        throw UserError(fmt::format("'from' and 'by' are in two units, {} and {}; write both in one",
-                                    range.from, range.by));
+        throw UserError("'from' and 'by' are in two units, {} and {}; write both in one", range.from,
+                        range.by);
     return stepped(from.number, to.number, by.number, from.unit);
 }
 
@@ -152,7 +151,7 @@ const Key& key_of_scene(const std::string& scene_text, const std::filesystem::pa
     for (const auto& [written, where] : probe.written())
         if (where.file == place && find_key(written, keys) != nullptr) key = find_key(written, keys);
     if (key == nullptr)
-        throw UserError(fmt::format("{}: '{}' is a table; name one of its own keys", place, excerpt(path)));
+        throw UserError("{}: '{}' is a table; name one of its own keys", place, excerpt(path));
     return *key;
 }
 
@@ -207,7 +206,7 @@ StudySearch read_search(Document& document, const std::string& table, Variation&
         for (const char* name : {"from", "to", "within"})
             ends.push_back(required_number(document.value(fmt::format("{}.{}", table, name)), name));
     } catch (const UserError& mistake) {
-        throw UserError(fmt::format("{}: {}", search.place, mistake.what()));
+        throw UserError("{}: {}", search.place, mistake.what());
     }
     if (ends[0].unit != ends[1].unit || ends[0].unit != ends[2].unit)
         document.fail(table + ".within", "has another unit than 'from' or 'to'; write all three in one");
@@ -228,9 +227,9 @@ void read_range(Document& document, const std::string& table, Variation& variati
     ValueRange range;
     if (!document.has(table + ".from") || !document.has(table + ".to"))
         throw UserError(
-            fmt::format("{}: [[vary]] lacks 'values', or 'from' and 'to'; write for example values = "
-                        "[1, 2, 3]",
-                        document.place(table)));
+            "{}: [[vary]] lacks 'values', or 'from' and 'to'; write for example values = "
+            "[1, 2, 3]",
+            document.place(table));
     range.from = document.value(table + ".from");
     range.to = document.value(table + ".to");
     range.by = document.value(table + ".by");
@@ -241,7 +240,7 @@ void read_range(Document& document, const std::string& table, Variation& variati
         for (const std::string& value : range_values(range))
             variation.values.push_back({value, words_of(value), place, 0});
     } catch (const UserError& mistake) {
-        throw UserError(fmt::format("{}: {}", place, mistake.what()));
+        throw UserError("{}: {}", place, mistake.what());
     }
 }
 

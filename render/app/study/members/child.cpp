@@ -11,8 +11,6 @@
 #include <filesystem>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "engine/base/error.hpp"
 
 namespace grainreel {
@@ -50,8 +48,7 @@ Child::Child(const std::vector<std::string>& words) {
     pointers.push_back(nullptr);
 
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0)
-        throw RunError(fmt::format("no pipe for a member: {}", std::strerror(errno)));
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw RunError("no pipe for a member: {}", std::strerror(errno));
     const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
     const pid_t parent = ::getpid();
     process_ = nothing < 0 ? -1 : ::fork();
@@ -62,7 +59,7 @@ Child::Child(const std::vector<std::string>& words) {
     pipe_ = ends[0];
     if (process_ < 0) {
         ::close(pipe_);
-        throw RunError(fmt::format("no process for a member: {}", std::strerror(why)));
+        throw RunError("no process for a member: {}", std::strerror(why));
     }
     ::fcntl(pipe_, F_SETFL, O_NONBLOCK);
 }

@@ -116,9 +116,8 @@ class Runner {
 
     // Whether the member was stopped, or was shorter, and left a checkpoint.
     bool can_go_on(std::size_t member) const {
-        std::error_code none;
         return !request_.films && results_[member].status == Status::incomplete &&
-               std::filesystem::exists(folder_.member(members_[member]) / kCheckpointName, none);
+               is_there(folder_.member(members_[member]) / kCheckpointName);
     }
 
     void tell_to_stop() {
@@ -275,8 +274,8 @@ void make_study_folder(const Study& study, const std::vector<Member>& members, c
     for (const auto& wanted : {folder.path / "members", folder.path / "posters", scene.parent_path()})
         if (!failure) std::filesystem::create_directories(wanted, failure);
     if (failure)
-        throw UserError(fmt::format("{}: cannot be made ({}); give another --out", folder.path.string(),
-                                    failure.message()));
+        throw UserError("{}: cannot be made ({}); give another --out", folder.path.string(),
+                        failure.message());
     write_study_copy(study, members, folder);
     keep_files(members, folder);
 }
@@ -320,7 +319,7 @@ std::vector<ShorterRun> shorter_runs(const std::vector<Member>& members, const S
     std::error_code none;
     for (std::size_t m = 0; m < members.size(); ++m) {
         wanted.insert(members[m].name);
-        if (!std::filesystem::exists(folder.member(members[m]), none)) by_stem.emplace(members[m].stem, m);
+        if (!is_there(folder.member(members[m]))) by_stem.emplace(members[m].stem, m);
     }
     std::map<std::size_t, std::pair<double, std::filesystem::path>> longest;  // duration and folder
     for (const auto& entry : std::filesystem::directory_iterator(folder.path / "members", none)) {
@@ -333,8 +332,7 @@ std::vector<ShorterRun> shorter_runs(const std::vector<Member>& members, const S
         const ReadRunJson record = read_run_json(entry.path() / "run.json");
         const bool complete = record.fault.empty() && record.record.status == RunStatus::complete;
         auto& best = longest[member->second];
-        if (complete && std::filesystem::exists(entry.path() / kCheckpointName, none) &&
-            duration > best.first)
+        if (complete && is_there(entry.path() / kCheckpointName) && duration > best.first)
             best = {duration, entry.path()};
     }
     std::vector<ShorterRun> runs;

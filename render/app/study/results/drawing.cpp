@@ -315,7 +315,7 @@ std::vector<std::filesystem::path> print_charts(const Study& study, const std::v
                                                 const Paper& paper, const std::filesystem::path& folder) {
     std::error_code failure;
     if (!std::filesystem::create_directories(folder, failure) && failure)
-        throw UserError(fmt::format("--charts {}: cannot be made ({})", folder.string(), failure.message()));
+        throw UserError("--charts {}: cannot be made ({})", folder.string(), failure.message());
     std::vector<std::filesystem::path> files;
     for (std::size_t i = 0; i < study.charts.size(); ++i) {
         const StudyChart& chart = study.charts[i];

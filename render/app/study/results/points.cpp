@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <algorithm>
 #include <limits>
 #include <map>
 #include <sstream>
 
 #include "engine/base/csv.hpp"
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
 #include "engine/scene/scene_file.hpp"
@@ -25,7 +25,7 @@ std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Memb
         const std::size_t value = members[m].at[chart.x];
         const double x =
             axis.numeric ? shown_x(study, chart, axis.values[value].number) : static_cast<double>(value);
-        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        if (!contains(names, name)) names.push_back(name);
         std::vector<SeedValue>& there = seeds[{name, x}];
         if (results[m].status == MemberResult::Status::complete)
             there.push_back(results[m].seed_value(chart.y));
@@ -49,15 +49,15 @@ void check_series(const Study& study, const std::vector<Member>& members) {
         std::vector<std::string> names;
         for (const Member& member : members) {
             const std::string name = shown_setting(study, member, chart.x);
-            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+            if (!contains(names, name)) names.push_back(name);
         }
         for (const std::string& name : chart.series)
-            if (std::find(names.begin(), names.end(), name) == names.end())
-                throw UserError(fmt::format("{}: names a series \"{}\"; the chart has {}", chart.series_place,
-                                            excerpt(name),
-                                            names.size() == 1 && names[0].empty()
-                                                ? "one alone, without a name"
-                                                : excerpt(fmt::format("{}", fmt::join(names, "; ")))));
+            if (!contains(names, name))
+                throw UserError("{}: names a series \"{}\"; the chart has {}", chart.series_place,
+                                excerpt(name),
+                                names.size() == 1 && names[0].empty()
+                                    ? "one alone, without a name"
+                                    : excerpt(fmt::format("{}", fmt::join(names, "; "))));
     }
 }
 
@@ -96,7 +96,7 @@ std::vector<ReferencePoint> read_reference(const std::filesystem::path& file) {
         if (values[2] < 0) fail(cells[2].column, "the error of y is negative");
         points.push_back({values[0], values[1], values[2]});
     }
-    if (points.empty()) throw UserError(fmt::format("{}: has no points; a row has x and y", file.string()));
+    if (points.empty()) throw UserError("{}: has no points; a row has x and y", file.string());
     return points;
 }
 

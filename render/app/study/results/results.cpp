@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "engine/base/numbers.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/run_json.hpp"
 #include "render/app/study/results/summary.hpp"
@@ -62,7 +61,7 @@ MemberResult read_result(const std::filesystem::path& folder, const std::vector<
     const std::int64_t planned = read_record(folder / "run.json", result);
     if (result.status == Status::complete && planned > 0 && planned < steps)
         result.status = Status::incomplete;
-    result.values.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
+    result.values.assign(measures.size(), kUnknown);
     result.until = result.values;
     if (result.status != Status::complete) return result;
     const auto table = read_measures(folder / "measures.csv");

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "engine/base/numbers.hpp"
 #include "render/app/study/file/members.hpp"
 #include "render/app/study/study.hpp"
 
@@ -13,9 +13,9 @@ namespace grainreel {
 
 // What one member says of one measure.
 struct SeedValue {
-    double value = std::numeric_limits<double>::quiet_NaN();
+    double value = kUnknown;
     // s; a first passage without a value comes later than that. NaN: not known.
-    double until = std::numeric_limits<double>::quiet_NaN();
+    double until = kUnknown;
 };
 
 struct MemberResult {

@@ -2,7 +2,6 @@
 // what has been run so far, and says what to run next or why it ends, so a search that was stopped goes on.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -125,7 +125,7 @@ std::vector<const MemberResult*> complete_in(const std::vector<Member>& members,
     const auto first = std::partition_point(members.begin(), members.end(),
                                             [&](const Member& m) { return m.setting < setting; });
     for (auto m = first; m != members.end() && m->setting == setting; ++m) {
-        const MemberResult& result = results[static_cast<std::size_t>(m - members.begin())];
+        const MemberResult& result = results[m - members.begin()];
         if (result.status == MemberResult::Status::complete) complete.push_back(&result);
     }
     return complete;

@@ -5,10 +5,10 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "engine/base/numbers.hpp"
 #include "engine/questions/statistics.hpp"
 #include "render/app/study/file/members.hpp"
 #include "render/app/study/results/results.hpp"
@@ -16,7 +16,7 @@
 namespace grainreel {
 
 struct SeedSummary {
-    static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    static constexpr double kNone = kUnknown;
 
     std::size_t members = 0;  // number of complete members
     std::size_t count = 0;    // so many of them have a value

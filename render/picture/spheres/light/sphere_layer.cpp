@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 
-#include "engine/base/processor.hpp"
+#include "engine/base/system/processor.hpp"
 #include "engine/mesh/room.hpp"
 #include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/light/lamp.hpp"

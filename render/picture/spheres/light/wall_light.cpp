@@ -1,5 +1,4 @@
-// Lights walls in tiles of 16 x 16 pixels: which wall each pixel shows, and which grains are near or between
-// the tile and the lamp. Hot code.
+// Lights walls in tiles of 16 x 16 pixels: which grains are near or between the tile and the lamp. Hot code.
 #include "render/picture/spheres/light/wall_light.hpp"
 
 #include <algorithm>
@@ -7,110 +6,12 @@
 #include <cmath>
 
 namespace grainreel {
-namespace {
-
-// What is left of the colour of a wall that is turned like this, beside a floor. Light differs more than
-// that; walls are drawn in one colour and shall not seem to be of several.
-float tone_of(const Lamp& lamp, const Eigen::Vector3f& normal) {
-    constexpr float kShown = 0.35f;  // 0.5 would be all of it, by the root that the kernel takes
-    const Eigen::Vector3f key(lamp.to_key[0], lamp.to_key[1], lamp.to_key[2]);
-    const Eigen::Vector3f up(lamp.up[0], lamp.up[1], lamp.up[2]);
-    const auto light = [&](const Eigen::Vector3f& n) {
-        return lamp.ground + (lamp.sky - lamp.ground) * 0.5f * (1 + n.dot(up)) +
-               lamp.key * std::max(0.0f, n.dot(key));
-    };
-    return std::min(1.0f, std::pow(light(normal) / light(up), kShown));
-}
-
-// The outline of a face in pixels; empty where a corner lies behind the eye.
-std::vector<Eigen::Vector2d> projected(const Sight& sight, const std::vector<Vec3>& corners) {
-    std::vector<Eigen::Vector2d> outline;
-    for (const Vec3& p : corners) {
-        if (!sight.orthographic && p.z() <= 0) return {};
-        const double scale = sight.orthographic ? sight.focal : sight.focal / p.z();
-        outline.emplace_back(sight.centre_x + scale * p.x(), sight.centre_y - scale * p.y());
-    }
-    return outline;
-}
-
-}  // namespace
 
 WallLight::WallLight(int width, int height)
     : width_(width),
       height_(height),
       shares_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 255),
       spans_(static_cast<std::size_t>(height)) {}
-
-void WallLight::set_faces(const Sight& sight, const Lamp& lamp, const std::vector<WallFace>& faces) {
-    faces_.clear();
-    corners_.clear();
-    for (const WallFace& face : faces) {
-        if (face.before || (face.taken <= 0 && face.opacity <= 0)) continue;
-        Face made{};
-        made.outline = projected(sight, face.corners);
-        if (made.outline.size() < 3 || faces_.size() >= 65534) continue;
-        made.plane.normal = face.inward.cast<float>();
-        made.plane.distance = static_cast<float>(face.inward.dot(face.corners[0]));
-        made.taken = static_cast<float>(face.taken), made.opacity = static_cast<float>(face.opacity);
-        made.wall = static_cast<float>(face.wall), made.container = static_cast<float>(face.container);
-        made.tone = lamp.shadows && face.taken > 0 ? tone_of(lamp, made.plane.normal) : 1;
-        double low = 1e9, high = -1e9;
-        for (const Eigen::Vector2d& p : made.outline)
-            low = std::min(low, p.y()), high = std::max(high, p.y());
-        const auto row = [&](double y) {
-            return static_cast<int>(std::clamp(std::floor(y), 0.0, static_cast<double>(height_)));
-        };
-        made.y0 = row(low), made.y1 = row(high + 1);
-        if (face.taken > 0) {
-            const Eigen::Vector3f& n = made.plane.normal;
-            corners_.push_back(
-                {n.x(), n.y(), n.z(), made.plane.distance, made.wall, made.container, made.taken});
-        }
-        faces_.push_back(std::move(made));
-    }
-    std::stable_sort(corners_.begin(), corners_.end(), [](const CornerPlane& a, const CornerPlane& b) {
-        return a.container != b.container ? a.container < b.container : a.wall < b.wall;
-    });
-}
-
-// Writes which faces each pixel of a row shows. Faces are convex, and later ones hide earlier ones, as far as
-// they are opaque: walls fade into each other while the camera moves.
-void WallLight::number_row(int y) {
-    const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-    std::uint16_t *upper = numbers_[0].face.data() + begin, *under = numbers_[1].face.data() + begin;
-    std::uint8_t *bare = numbers_[0].bare.data() + begin, *bare_under = numbers_[1].bare.data() + begin;
-    std::fill_n(upper, width_, std::uint16_t{0});
-    std::fill_n(under, width_, std::uint16_t{0});
-    const double middle = y + 0.5;
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-        const Face& face = faces_[f];
-        if (y < face.y0 || y >= face.y1) continue;
-        double low = 1e9, high = -1e9;
-        for (std::size_t k = 0; k < face.outline.size(); ++k) {
-            const Eigen::Vector2d &a = face.outline[k], &b = face.outline[(k + 1) % face.outline.size()];
-            if ((a.y() <= middle) == (b.y() <= middle)) continue;
-            const double x = a.x() + (middle - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-            low = std::min(low, x), high = std::max(high, x);
-        }
-        const auto pixel = [&](double x) {
-            return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(width_)));
-        };
-        const auto left = static_cast<std::uint32_t>(std::lround(255 * (1 - face.opacity)));
-        for (int x = low < high ? pixel(low) : width_; x < (low < high ? pixel(high) : 0); ++x) {
-            bare[x] = static_cast<std::uint8_t>(bare[x] * left / 255);
-            bare_under[x] = static_cast<std::uint8_t>(bare_under[x] * left / 255);
-            if (bare_under[x] == 0) under[x] = 0;
-            if (face.taken > 0) {
-                under[x] = bare[x] == 0 ? std::uint16_t{0} : upper[x];
-                bare_under[x] = bare[x];
-                upper[x] = static_cast<std::uint16_t>(f + 1);
-                bare[x] = 255;
-            } else if (bare[x] == 0) {
-                upper[x] = 0;
-            }
-        }
-    }
-}
 
 namespace {
 
@@ -140,35 +41,6 @@ void WallLight::number_band(int y0) {
                               std::min(kTile, width_ - x)));
 }
 
-void WallLight::fill_from_faces(const Numbers& of, const Sight& sight, int x, int y, WallRow& row) const {
-    const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + x;
-    const std::uint16_t* numbers = of.face.data() + begin;
-    const std::uint8_t* bare = of.bare.data() + begin;
-    const int count = std::min(kWallRow, width_ - x);
-    const float v = sight.slope_y(row.y);
-    for (int i = 0; i < kWallRow;) {
-        const int number = i < count ? numbers[i] : 0;
-        int end = i + 1;
-        while (end < kWallRow && (end < count ? numbers[end] : 0) == number) ++end;
-        if (number == 0) {
-            for (; i < end; ++i) row.taken[i] = 0, row.away[i] = 1;
-            continue;
-        }
-        const Face& face = faces_[static_cast<std::size_t>(number - 1)];
-        const Eigen::Vector3f n = face.plane.normal;
-        const float distance = face.plane.distance, taken = face.taken / 255, tone = face.tone;
-        const float wall = face.wall, container = face.container;
-        for (int k = i; k < end; ++k) {
-            const float across = n.x() * sight.slope_x(row.x + static_cast<float>(k)) + n.y() * v;
-            row.away[k] = sight.orthographic ? (distance - across) / n.z() : distance / (across + n.z());
-            row.normal[0][k] = n.x(), row.normal[1][k] = n.y(), row.normal[2][k] = n.z();
-            row.taken[k] = taken * bare[k];
-            row.tone[k] = tone, row.wall[k] = wall, row.container[k] = container;
-        }
-        i = end;
-    }
-}
-
 // The rows of a tile in which grains do not hide each pixel and all its neighbours; bit r is row y + r.
 std::uint32_t WallLight::bare_rows(const Visibility& seen, int x, int y, int rows, int count) const {
     std::uint32_t bare = 0;  // bit r: a pixel of row y + r - 1 shows no grain
@@ -189,7 +61,7 @@ ViewSphere WallLight::around(const Sight& sight, Worker& worker, int rows) {
     Eigen::Array3f low(1e30f, 1e30f, 1e30f), high = -low;
     for (int r = 0; r < rows; ++r) {
         if ((worker.any >> r & 1) == 0) continue;
-        const WallRow& row = worker.rows[static_cast<std::size_t>(r)];
+        const WallRow& row = worker.rows[r];
         int first = kWallRow, last = 0;
         float nearest = 1e30f, farthest = -1e30f;
         for (int i = 0; i < kWallRow; ++i) {
@@ -296,14 +168,14 @@ void WallLight::light_tile(const Job& job, int x, int y0, int rows, bool first, 
                           job.corner_reach};
     const int count = std::min(kTile, width_ - x);
     for (int r = 0; r < rows; ++r) {
-        WallRow& row = worker.rows[static_cast<std::size_t>(r)];
+        WallRow& row = worker.rows[r];
         if ((worker.any >> r & 1) == 0) continue;
         sphere_kernels().light_wall(job.by.sight, job.by.lamp, shade, row);
         std::uint8_t* shares =
             shares_.data() + static_cast<std::size_t>(y0 + r) * static_cast<std::size_t>(width_) + x;
         for (int i = 0; i < count; ++i)
             shares[i] = static_cast<std::uint8_t>((first ? 255.0f : shares[i]) * row.share[i] + 0.5f);
-        Layer::Span& span = spans_[static_cast<std::size_t>(y0 + r)];
+        Layer::Span& span = spans_[y0 + r];
         span = span.begin < span.end ? Layer::Span{std::min(span.begin, x), std::max(span.end, x + count)}
                                      : Layer::Span{x, x + count};
     }
@@ -317,12 +189,12 @@ void WallLight::light(const Job& job, int layers, Team& team, const Shows& shows
     const int bands = (height_ + kTile - 1) / kTile;
     std::atomic<int> next{0};
     team.run([&](int member) {
-        Worker& worker = workers_[static_cast<std::size_t>(member)];
+        Worker& worker = workers_[member];
         worker.met_by.resize(job.by.spheres.size(), 0);
         for (int band; (band = next.fetch_add(1, std::memory_order_relaxed)) < bands;) {
             const int y0 = band * kTile, rows = std::min(kTile, height_ - y0);
             for (int y = y0; y < y0 + rows; ++y) {
-                Layer::Span& span = spans_[static_cast<std::size_t>(y)];
+                Layer::Span& span = spans_[y];
                 std::fill(shares_.begin() + y * static_cast<std::ptrdiff_t>(width_) + span.begin,
                           shares_.begin() + y * static_cast<std::ptrdiff_t>(width_) + span.end,
                           std::uint8_t{255});
@@ -339,7 +211,7 @@ void WallLight::light(const Job& job, int layers, Team& team, const Shows& shows
                     if (worker.any == 0) continue;
                     for (int r = 0; r < rows; ++r) {
                         if ((worker.any >> r & 1) == 0) continue;
-                        WallRow& row = worker.rows[static_cast<std::size_t>(r)];
+                        WallRow& row = worker.rows[r];
                         row.x = static_cast<float>(x) + 0.5f, row.y = static_cast<float>(y0 + r) + 0.5f;
                         fill(layer, x, y0 + r, row);
                     }
@@ -376,11 +248,9 @@ void WallLight::light_faces(const LightTakers& by, const std::vector<WallFace>& 
     light(
         {by, corner_reach}, 2, team,
         [&](int layer, int x, int y, int, int) {
-            return std::uint32_t{numbers_[static_cast<std::size_t>(layer)].shown[tile_of(x, y)]};
+            return std::uint32_t{numbers_[layer].shown[tile_of(x, y)]};
         },
-        [&](int layer, int x, int y, WallRow& row) {
-            fill_from_faces(numbers_[static_cast<std::size_t>(layer)], s, x, y, row);
-        });
+        [&](int layer, int x, int y, WallRow& row) { fill_from_faces(numbers_[layer], s, x, y, row); });
 }
 
 void WallLight::light_meshes(const LightTakers& by, const MeshPixels& meshes, Team& team) {
@@ -408,7 +278,7 @@ void WallLight::light_meshes(const LightTakers& by, const MeshPixels& meshes, Te
 }
 
 void WallLight::darken(int y, std::uint32_t* pixels) const {
-    const Layer::Span span = spans_[static_cast<std::size_t>(y)];
+    const Layer::Span span = spans_[y];
     darken_row(pixels + span.begin, row(y) + span.begin, span.end - span.begin);
 }
 
