@@ -60,6 +60,6 @@ run render "$work/drum" --at 1.9 --size 800x500 --out "$here/drum.png"
 
 # One bed in three styles.
 for style in studio flat dark; do
-    run bench render --grains 3000 --size 640x720 --style $style --out "$work/$style"
+    run bench render --grains 1500 --zoom 0.88 --size 400x450 --style $style --out "$work/$style"
 done
 beside styles.png "$work"/{studio,flat,dark}/*.png

@@ -271,6 +271,31 @@ TEST_F(CompareProgram, AStillHasTheStartHeightsOfTheFilm) {
     EXPECT_EQ(record_of(here / "first")["drawn"][0]["last_s"], 0.0);
 }
 
+// A still has the trails that the film has at this moment.
+TEST_F(CompareProgram, AStillHasTheTrailsOfTheFilm) {
+    const std::vector<std::string> bare = {"--set", "film.show=[\"time\"]", "--set",
+                                           "film.camera.frame=container"};
+    const std::string trails = "film.trails={species=[\"big\"], duration=\"50 ms\"}";
+    const auto drawn = [&](std::vector<std::string> words, bool with_trails) {
+        words.insert(words.end(), bare.begin(), bare.end());
+        if (with_trails) words.insert(words.end(), {"--set", trails});
+        const Ended ended = program(words);
+        EXPECT_EQ(ended.status, 0) << ended.err;
+    };
+    const auto pixels = [&](const std::string& file) {
+        const std::string png = text_of(here / file);
+        return png.substr(png.find("IDAT"));
+    };
+    drawn({"compare", "weak.toml", "strong.toml", "--frames", "--no-film", "--no-report", "--out", "film"},
+          true);
+    drawn({"compare", "film/weak", "film/strong", "--at", "0.1", "--out", "still"}, true);
+    drawn({"compare", "film/weak", "film/strong", "--at", "0.1", "--set", "film.trails={}", "--out", "none"},
+          false);
+    const std::string sixth = pixels("film/frames/000006.png");  // 60 frames a second of the run
+    EXPECT_TRUE(pixels("still/still-0.100s.png") == sixth);
+    EXPECT_FALSE(pixels("none/still-0.100s.png") == sixth);
+}
+
 // A caption that a scene has for its own drive is not shown over a panel with another drive.
 TEST_F(CompareProgram, CaptionsOfOneValueAreLeftOutBesideOthers) {
     write_text(here / "told.toml",

@@ -338,6 +338,24 @@ TEST_F(RenderProgram, AtDrawsTrailsOfTheFramesBefore) {
     EXPECT_NE(pixels(text_of(here / "bare.png")), pixels(last));
 }
 
+// Moments that the run did not keep are brought back for the trails, unless that is forbidden.
+TEST_F(RenderProgram, AtDrawsTrailsOfMomentsThatWereNotKept) {
+    short_run();  // keeps a moment in each period of 50 ms
+    const auto drawn = [&](std::vector<std::string> words, const std::string& out) {
+        words.insert(words.end(), {"--set", "film.segment=[{playback=0.5}]", "--set",
+                                   "film.trails.species=[\"big\"]", "--set", "film.show=[\"time\"]"});
+        words.insert(words.end(), {"--out", out});
+        EXPECT_EQ(program(words).status, 0) << out;
+    };
+    drawn({"render", "run", "--no-film", "--frames"}, "film");
+    drawn({"render", "run", "--at", "0.2"}, "still.png");
+    drawn({"render", "run", "--at", "0.2", "--no-replay"}, "kept.png");
+    const auto pixels = [](const std::string& png) { return png.substr(png.find("IDAT")); };
+    const std::string twelfth = pixels(text_of(here / "film/frames/000012.png"));
+    EXPECT_TRUE(pixels(text_of(here / "still.png")) == twelfth);
+    EXPECT_FALSE(pixels(text_of(here / "kept.png")) == twelfth);
+}
+
 // The command line puts the camera at another place, or back to the automatic one, whatever scene.toml has.
 TEST_F(RenderProgram, ThePlaceOfTheCameraTakesThePlaceOfItsAngles) {
     short_run();
