@@ -54,8 +54,10 @@ class StudyVerb final : public Verb {
 
     void add_options(CLI::App& parser) override {
         parser
-            .add_option("STUDY", file_,
-                        "The study, a TOML file; docs/guide/studies.md tells how to write one")
+            .add_option(
+                "STUDY", file_,
+                "The study, a TOML file, or the name of a shipped one; docs/guide/studies.md tells how to "
+                "write one")
             ->required()
             ->type_name("FILE");
         add_out_folder(parser, out_,
@@ -94,7 +96,7 @@ class StudyVerb final : public Verb {
         request_.cache = shortest_packing_ || (said != nullptr && std::string_view(said) == "off");
         std::vector<std::vector<ReferencePoint>> references;
         for (const StudyChart& chart : study.charts)
-            references.push_back(chart.reference ? read_reference(*chart.reference)
+            references.push_back(chart.reference ? read_reference(chart.reference_text, *chart.reference)
                                                  : std::vector<ReferencePoint>());
         folder_.path =
             std::filesystem::absolute(out_.value_or(output_base() / study.file.stem())).lexically_normal();
