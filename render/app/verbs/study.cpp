@@ -352,7 +352,7 @@ class StudyVerb final : public Verb {
         replace_file(folder_.path / "settings.csv", setting_table(study, members_, results_));
         replace_file(folder_.path / "units.csv", unit_table(study));
         if (!search_file_.empty()) replace_file(folder_.path / "search.json", search_file_);
-        replace_file(folder_.path / "parameters.csv", parameters_.table(study));
+        replace_file(folder_.path / "parameters.csv", parameters_.table(study, members_, results_));
         const DrawnCharts charts = draw_charts(study, members_, results_, references, folder_.charts());
         if (!charts.drawn)
             reporter.warning(
