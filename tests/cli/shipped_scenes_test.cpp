@@ -47,6 +47,8 @@ TEST(ShippedScenes, AreFoundByNameAndByWordsOfIt) {
     EXPECT_EQ(shipped_scene_like("brazil-nut")->name, "teaching_brazil_nut");
     EXPECT_EQ(shipped_scene_like("wedge"), nullptr) << "there are several";
     EXPECT_EQ(nearest_shipped_scene("gravle"), "gravel");
+    EXPECT_EQ(nearest_shipped_scene("brazil-nuts"), "teaching_brazil_nut");
+    EXPECT_EQ(nearest_shipped_scene("convektion-box"), "convection_box");
     EXPECT_EQ(nearest_shipped_scene("/nowhere"), std::nullopt);
 }
 

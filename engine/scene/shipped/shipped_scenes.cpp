@@ -65,11 +65,25 @@ const ShippedScene* shipped_scene_like(std::string_view words, const std::vector
     return matches.size() == 1 ? matches.front() : nullptr;
 }
 
+// Whole names, or their beginnings and ends, word by word: "brazil_nuts" is near to the end of
+// teaching_brazil_nut.
 std::optional<std::string> nearest_shipped_scene(std::string_view name,
                                                  const std::vector<ShippedScene>& among) {
-    std::vector<std::string> names;
-    for (const ShippedScene& scene : among) names.push_back(scene.name);
-    return nearest_name(plain_name(name), names);
+    std::vector<std::string> parts, whole;
+    const auto add = [&](const std::string& part, const std::string& of) {
+        parts.push_back(part);
+        whole.push_back(of);
+    };
+    for (const ShippedScene& scene : among) add(scene.name, scene.name);
+    for (const ShippedScene& scene : among)
+        for (std::size_t at = scene.name.find('_'); at != std::string::npos;
+             at = scene.name.find('_', at + 1)) {
+            add(scene.name.substr(at + 1), scene.name);
+            add(scene.name.substr(0, at), scene.name);
+        }
+    const std::optional<std::string> near = nearest_name(plain_name(name), parts);
+    if (!near) return std::nullopt;
+    return whole[static_cast<std::size_t>(std::find(parts.begin(), parts.end(), *near) - parts.begin())];
 }
 
 }  // namespace grainreel
