@@ -135,6 +135,7 @@ void take_engine(const Json& from, RunJson& r) {
     take(from, "steps", r.steps);
     take(from, "steps_planned", r.steps_planned);
     take(from, "simulated_s", r.simulated);
+    if (double settled = 0; take(from, "settled_s", settled)) r.settled = settled;
     take(from, "vector", r.vector);
     take(from, "particle_steps_per_second", r.particle_steps_per_second);
     std::string digits;

@@ -57,6 +57,7 @@ Json engine(const RunJson& r) {
             {"steps", r.steps},
             {"steps_planned", r.steps_planned},
             {"simulated_s", r.simulated},
+            {"settled_s", r.settled ? Json(*r.settled) : Json(nullptr)},
             {"vector", r.vector},
             {"particle_steps_per_second", r.particle_steps_per_second},
             {"largest_overlap", r.deepest ? deepest(*r.deepest) : Json(nullptr)},

@@ -78,7 +78,8 @@ struct RunJson : ProgramInfo {
     std::int64_t steps = 0, steps_planned = 0;  // since the drive started
     double step = 0;                            // s
     double simulated = 0;                       // s since the drive started
-    std::optional<std::uint64_t> state_hash;    // hash of the end state
+    std::optional<double> settled;  // s for which the bed settled before; none if nothing was packed
+    std::optional<std::uint64_t> state_hash;  // hash of the end state
 
     std::vector<std::pair<std::string, double>> wall_seconds;  // of each stage, by its name
     double particle_steps_per_second = 0;                      // since the drive started, in the engine only

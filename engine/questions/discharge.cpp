@@ -8,20 +8,14 @@
 #include "engine/base/mathematics.hpp"
 #include "engine/files/measures_csv.hpp"
 #include "engine/files/outflow_csv.hpp"
+#include "engine/measure/flow/beverloo.hpp"
 #include "engine/run/stored/stored_run.hpp"
 #include "engine/scene/bed.hpp"
 
 namespace grainreel {
 namespace {
 
-constexpr double of_hole = 0.58, of_slot = 1.03, empty_edge = 1.4;  // C of both, and k
-constexpr double flowing_fraction = 0.6;  // solid fraction whose density the law takes
 constexpr std::size_t least_times = 50;
-
-bool is_upright(const Scene& scene) {
-    const Vec3& g = scene.gravity;
-    return g.z() < 0 && math::hypot(g.x(), g.y()) < 1e-9 * -g.z() && !scene.container.turn;
-}
 
 struct Series {
     std::vector<double> times, gone;
@@ -33,11 +27,6 @@ std::optional<Series> series_in(const std::filesystem::path& folder, const Scene
     const auto table = read_measures(folder / "measures.csv");
     if (table == nullptr || !table->find("outflow_kg") || !table->find("time_s")) return std::nullopt;
     return Series{table->all("time_s"), table->all("outflow_kg")};
-}
-
-// The index of the first time at which this mass is out.
-std::size_t first_with(const std::vector<double>& gone, double mass) {
-    return static_cast<std::size_t>(std::lower_bound(gone.begin(), gone.end(), mass) - gone.begin());
 }
 
 // The half of the interval has two digits, and the rate as many decimals.
@@ -58,40 +47,7 @@ std::string why_not_emptied(const Discharge& flow, const Scene& scene) {
                        100 * (1 - flow.mass / total_mass(scene)));
 }
 
-std::string why_no_beverloo(const Scene& scene) {
-    if (beverloo_rate(scene)) return "";
-    if (!scene.container.outlet) return "it is for an outlet in the floor (container.outlet)";
-    if (!is_upright(scene)) return "it is for gravity along -z and a vessel that does not turn";
-    return fmt::format("the outlet is too small for grains of {:.4g} mm", 1000 * mean_diameter(scene));
-}
-
 }  // namespace
-
-std::optional<double> beverloo_rate(const Scene& scene) {
-    const Container& container = scene.container;
-    if (!container.outlet || !is_upright(scene)) return std::nullopt;
-    const double edge = empty_edge * mean_diameter(scene), volume = solid_volume(scene);
-    const double free_width = 2 * container.outlet->half_width - edge;
-    if (!(free_width > 0) || !(volume > 0)) return std::nullopt;
-    const double density = flowing_fraction * total_mass(scene) / volume;
-    const double base = density * std::sqrt(scene.gravity.norm());
-    if (container.outlet->shape == Outlet::Shape::hole) return of_hole * base * math::pow(free_width, 2.5);
-    const double length = container.depth - (container.periodic_depth ? 0 : edge);
-    if (!(length > 0)) return std::nullopt;
-    return of_slot * base * length * math::pow(free_width, 1.5);
-}
-
-std::string beverloo_words(const Scene& scene) {
-    const Outlet& outlet = *scene.container.outlet;
-    const double d = mean_diameter(scene);
-    const bool ends = !scene.container.periodic_depth;
-    if (outlet.shape == Outlet::Shape::hole)
-        return fmt::format("W = {} ρ √g (D - {} d)^(5/2) with D = {:.4g} mm, d = {:.4g} mm", of_hole,
-                           empty_edge, 2000 * outlet.half_width, 1000 * d);
-    return fmt::format("W = {} ρ √g {} (B - {} d)^(3/2) with B = {:.4g} mm, L = {:.4g} mm, d = {:.4g} mm",
-                       of_slot, ends ? fmt::format("(L - {} d)", empty_edge) : "L", empty_edge,
-                       2000 * outlet.half_width, 1000 * scene.container.depth, 1000 * d);
-}
 
 std::optional<Discharge> discharge_of(const std::vector<double>& times, const std::vector<double>& gone,
                                       double all) {
@@ -146,7 +102,7 @@ std::vector<std::string> discharge_lines(const std::filesystem::path& folder, co
     std::vector<std::string> lines{line};
     if (const auto expected = beverloo_rate(scene))
         lines.push_back(fmt::format("Beverloo's law expects {:.4g} kg/s: {}, ρ = {} of the grains' density",
-                                    *expected, beverloo_words(scene), flowing_fraction));
+                                    *expected, beverloo_words(scene), kFlowingFraction));
     return lines;
 }
 
@@ -182,7 +138,7 @@ Answer discharge_answer(const StoredRun& run) {
         unknown.empty()
             ? fmt::format("Beverloo's law: {}, ρ = {} of the grains' density (Beverloo, Leniger, van "
                           "de Velde 1961; slots: Nedderman 1992)",
-                          beverloo_words(scene), flowing_fraction)
+                          beverloo_words(scene), kFlowingFraction)
             : "Beverloo's law: expects no rate here, " + unknown);
     return answer;
 }

@@ -1,5 +1,5 @@
 // How fast a hopper runs out: the rate with its interval, the time when it is empty, and what Beverloo's law
-// expects of its outlet.
+// expects of its outlet (engine/measure/flow/beverloo.hpp).
 #pragma once
 
 #include <filesystem>
@@ -14,16 +14,6 @@
 namespace grainreel {
 
 class StoredRun;  // engine/run/stored/stored_run.hpp
-
-// The rate (kg/s) of the law of Beverloo, Leniger and van de Velde (Chem. Eng. Sci. 15, 260, 1961). A round
-// hole of diameter D has W = 0.58 rho sqrt(g) (D - 1.4 d)^(5/2); a slot of width B and length L has W = 1.03
-// rho sqrt(g) (L - 1.4 d) (B - 1.4 d)^(3/2) (Nedderman, Statics and Kinematics of Granular Materials, 1992,
-// ch. 10), with L in place of L - 1.4 d where the slot has no ends (periodic depth). d is the mean diameter,
-// and rho is 0.6 of the mean density of the grains. None without an outlet in a container's floor, without
-// gravity straight down on it, or where the outlet is narrower than the law can tell.
-std::optional<double> beverloo_rate(const Scene& scene);
-// The law in words, with its numbers: "for a slot of 18 mm, W = 1.03 rho ...".
-std::string beverloo_words(const Scene& scene);
 
 struct Discharge {
     double from = 0, to = 0;            // s, the part in which the rate is measured

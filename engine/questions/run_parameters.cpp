@@ -21,6 +21,7 @@ Answer parameters_answer(const StoredRun& run) {
     row("program.version", record.version);
     row("program.commit", record.commit);
     row("program.compiler", record.compiler);
+    if (record.settled) row("packing.settled", fmt::format("{:.6g}", *record.settled));
     for (const auto& [key, value] : flat_toml(load_scene_file(scene)))
         if (!key.starts_with("film.")) row(key, value);
     return {{std::move(table)}, {}};

@@ -98,14 +98,13 @@ PageFilm page_film(const FilmedScene& scene, const fs::path& folder, std::option
     const auto size = static_cast<std::size_t>(fs::file_size(folder / name, error));
     if (error || size == 0) {
         if (frames.value_or(0) > 0)
-            film.note =
-                fmt::format("The film is not on this page, since {} is not in the run's folder.", name);
+            film.note = {"The film is not on this page, since {1} is not in the run's folder.", {name}};
         return film;
     }
     quiet_ffmpeg();
     film.file = name;
     if (const std::string damage = damage_of(folder / name, frames); !damage.empty()) {
-        film.note = fmt::format("The film is not on this page, since {} is damaged ({}).", name, damage);
+        film.note = {"The film is not on this page, since {1} is damaged ({2}).", {name, damage}};
         return film;
     }
     film.whole_in_folder = true;
@@ -114,12 +113,12 @@ PageFilm page_film(const FilmedScene& scene, const fs::path& folder, std::option
         film.bytes = read_bytes(folder / name);
         return film;
     }
-    const std::string why = film.type.empty() ? fmt::format("browsers do not play {}", codec.words)
-                                              : fmt::format("the film has {}", size_text(size));
+    const PageNote why = film.type.empty() ? PageNote("browsers do not play {1}", {std::string(codec.words)})
+                                           : PageNote("the film has {1}", {size_text(size)});
     film.type = "video/mp4";
-    film.note = fmt::format(
-        "This is a copy of at most 720 lines, since {}; the film itself is {} in the run's folder.", why,
-        name);
+    film.note = {
+        "This is a copy of at most 720 lines, since {1}; the film itself is {2} in the run's folder.",
+        {why, name}};
     const auto planned = static_cast<double>(std::max<std::int64_t>(1, frames.value_or(1)));
     std::int64_t copied = 0;
     const auto picture_taken = [&] {
@@ -133,18 +132,20 @@ PageFilm page_film(const FilmedScene& scene, const fs::path& folder, std::option
         else if (kept <= most_bytes)
             film.bytes = read_bytes(folder / kPageCopy);
     } catch (const RunError& problem) {
-        film.note = fmt::format(
-            "The film is not on this page, since {}, and no copy could be made ({}); it is {} in the run's "
+        film.note = {
+            "The film is not on this page, since {1}, and no copy could be made ({2}); it is {3} in the "
+            "run's "
             "folder.",
-            why, problem.what(), name);
+            {why, std::string(problem.what()), name}};
         return film;
     }
     if (!film.bytes.empty() && film.bytes.size() <= most_bytes) return film;
     film.bytes.clear();
-    film.note = fmt::format(
-        "The film is not on this page, since {} and even a smaller copy is too large for it; it is {} in the "
+    film.note = {
+        "The film is not on this page, since {1} and even a smaller copy is too large for it; it is {2} in "
+        "the "
         "run's folder.",
-        why, name);
+        {why, name}};
     return film;
 }
 
@@ -201,9 +202,9 @@ FilmTimes film_times(const FilmedScene& scene, std::int64_t frames, double first
     try {
         result.times = planned_times(scene, first);
     } catch (const UserError&) {
-        result.why_not =
+        result.why_not = PageNote(
             "This version of the program would not run the scene, so it cannot tell which moments the "
-            "film shows.";
+            "film shows.");
         return result;
     }
     const auto planned = static_cast<std::int64_t>(result.times.size());
@@ -213,9 +214,9 @@ FilmTimes film_times(const FilmedScene& scene, std::int64_t frames, double first
         return result;
     }
     result.times.clear();
-    result.why_not =
+    result.why_not = PageNote(
         "The film leaves out moments, and the run does not say which, so the film goes by itself. With "
-        "film.periods in the scene it would be tied to charts and bed.";
+        "film.periods in the scene it would be tied to charts and bed.");
     return result;
 }
 

@@ -10,6 +10,7 @@
 #include "render/film/codec/ffmpeg.hpp"
 #include "render/film/production/picture_files.hpp"
 #include "render/page/embed.hpp"
+#include "render/page/page_words.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -19,7 +20,7 @@ struct PageFilm {
     std::string type;                 // "video/mp4"
     std::string file;                 // name in the run's folder: "movie.mp4"; empty without a film
     bool whole_in_folder = false;     // whether the file is the whole film and plays
-    std::string note;  // a sentence for the page if it shows something other than that file, or no film
+    PageNote note;                    // for the page, if it shows something other than that file, or no film
 };
 
 // The run's own film when browsers play it and it is small enough. Otherwise a copy in H.264 of 720 lines at
@@ -35,7 +36,7 @@ std::vector<std::uint8_t> page_poster(const std::filesystem::path& folder);
 
 struct FilmTimes {
     std::vector<double> times;  // s, one for each frame; empty when they are not known
-    std::string why_not;        // a sentence for the page when they are not known
+    PageNote why_not;           // for the page, when they are not known
 };
 
 // The times in the run's own table (film_times.csv), if its number of frames is right and its times never go

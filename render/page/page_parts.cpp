@@ -210,7 +210,7 @@ std::string end_html(const FilmedScene& scene, const ReadRunJson& run, double un
 }
 
 std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
-                      const std::string& why_not_tied, const std::string& about, const PageWords& say,
+                      const PageNote& why_not_tied, const std::string& about, const PageWords& say,
                       const std::string& n, bool beside) {
     const std::string picture =
         poster.empty() ? "" : fmt::format("data:image/jpeg;base64,{}", base64(poster));
@@ -224,9 +224,8 @@ std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& pos
                             html_text(say("One picture of the run: {1}", {about})),
                             film.bytes.empty() ? "" : " hidden");
     if (html.empty()) html = fmt::format("<p>{}</p>\n", html_text(say("The run has no film and no poster.")));
-    for (const std::string& note : {film.note, film.bytes.empty() ? std::string() : why_not_tied})
-        if (!note.empty())
-            html += fmt::format("<p class=\"faint\"{}>{}</p>\n", say.on_english(), html_text(note));
+    for (const PageNote& note : {film.note, film.bytes.empty() ? PageNote() : why_not_tied})
+        if (!note.empty()) html += fmt::format("<p class=\"faint\">{}</p>\n", html_text(say(note)));
     if (film.whole_in_folder && beside)
         html += fmt::format("<p class=\"faint no-print\"><a href=\"{}\" title=\"{}\">{}</a></p>\n",
                             file_link(film.file), html_text(say("Opens while this page lies there")),
@@ -291,11 +290,7 @@ std::string text_of_caption(const FilmCaption& caption, const MeasureTable* meas
         const double until = caption.from * (1 + 1e-9) + 1e-12;
         rows = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), until) - times.begin());
     }
-    return live_text(caption.words, [&](const std::string& name) -> std::optional<double> {
-        const std::optional<std::size_t> column = rows > 0 ? measures->find(name) : std::nullopt;
-        if (!column) return std::nullopt;
-        return measures->values(*column, rows - 1, rows).front();
-    });
+    return live_text(caption.words, [&](const LiveWords& part) { return live_number(part, measures, rows); });
 }
 
 }  // namespace

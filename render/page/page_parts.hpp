@@ -31,7 +31,7 @@ std::string end_html(const FilmedScene& scene, const ReadRunJson& run, double un
 // n: ending of the ids of elements, since a page may show several runs. beside: whether the page lies beside
 // the film's file.
 std::string film_html(const PageFilm& film, const std::vector<std::uint8_t>& poster,
-                      const std::string& why_not_tied, const std::string& about, const PageWords& say,
+                      const PageNote& why_not_tied, const std::string& about, const PageWords& say,
                       const std::string& n = "", bool beside = true);
 
 // Says which of the bed's moments the page has, and how exact they are.

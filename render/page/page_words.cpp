@@ -26,6 +26,22 @@ std::string word_of_film(const Wording& film, std::string_view english) {
     return "";
 }
 
+// The words with parts in place of {1}, {2} ...
+std::string filled_in(const std::string& words, const std::vector<std::string>& parts) {
+    std::string text;
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        const bool part = words[k] == '{' && k + 2 < words.size() && words[k + 2] == '}';
+        const auto number = part ? static_cast<std::size_t>(words[k + 1] - '1') : parts.size();
+        if (number >= parts.size()) {
+            text += words[k];
+            continue;
+        }
+        text += parts[number];
+        k += 2;
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string PageWords::pattern(std::string_view english) const {
@@ -36,18 +52,17 @@ std::string PageWords::pattern(std::string_view english) const {
 
 std::string PageWords::operator()(std::string_view english,
                                   std::initializer_list<std::string_view> parts) const {
-    std::string text, words = pattern(english);
-    for (std::size_t k = 0; k < words.size(); ++k) {
-        const bool part = words[k] == '{' && k + 2 < words.size() && words[k + 2] == '}';
-        const auto number = part ? static_cast<std::size_t>(words[k + 1] - '1') : parts.size();
-        if (number >= parts.size()) {
-            text += words[k];
-            continue;
-        }
-        text += parts.begin()[number];
-        k += 2;
-    }
-    return text;
+    return filled_in(pattern(english), {parts.begin(), parts.end()});
+}
+
+std::string PageWords::operator()(const PageNote& note) const {
+    std::vector<std::string> parts;
+    for (const PageNote& part : note.parts) parts.push_back((*this)(part));
+    return filled_in(pattern(note.english), parts);
+}
+
+std::string PageNote::in_english() const {
+    return PageWords({})(*this);
 }
 
 std::string PageWords::in(std::string_view html) const {

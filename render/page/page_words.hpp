@@ -7,10 +7,24 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "render/scene/wording.hpp"
 
 namespace grainreel {
+
+// A sentence with its parts, which may be such texts themselves. The terminal tells it in English, and a page
+// in its own language.
+struct PageNote {
+    PageNote() = default;
+    PageNote(std::string text, std::vector<PageNote> its_parts = {})
+        : english(std::move(text)), parts(std::move(its_parts)) {}
+    bool empty() const { return english.empty(); }
+    std::string in_english() const;
+
+    std::string english;          // a text of the table, or one that is the same in all languages
+    std::vector<PageNote> parts;  // in place of {1}, {2} ...
+};
 
 class PageWords {
   public:
@@ -20,6 +34,7 @@ class PageWords {
     // stays English.
     std::string operator()(std::string_view english,
                            std::initializer_list<std::string_view> parts = {}) const;
+    std::string operator()(const PageNote& note) const;
     // A template of the page in this language: each [[text]] in it is replaced by its words.
     std::string in(std::string_view html) const;
     // The page's facts, a JSON object, and the words that differ from English, by their English text. Scripts

@@ -423,6 +423,58 @@ inline constexpr auto page_rows = std::to_array<PageRow>({
      {"Das Programm, das den Lauf zeigt, ist beendet; unten steht, was es zuletzt zeigte.",
       "Le programme qui montre le calcul s’est arrêté ; ce qu’il a montré en dernier est ci-dessous.",
       "El programa que muestra la simulación ha terminado; abajo está lo último que mostró."}},
+    // Notes about the film.
+    {"The film is not on this page, since {1} is not in the run's folder.",
+     {"Der Film steht nicht auf dieser Seite, denn {1} fehlt im Ordner des Laufs.",
+      "Le film n’est pas sur cette page, car {1} n’est pas dans le dossier du calcul.",
+      "La película no está en esta página, porque {1} no está en la carpeta de la simulación."}},
+    {"The film is not on this page, since {1} is damaged ({2}).",
+     {"Der Film steht nicht auf dieser Seite, denn {1} ist beschädigt ({2}).",
+      "Le film n’est pas sur cette page, car {1} est endommagé ({2}).",
+      "La película no está en esta página, porque {1} está dañado ({2})."}},
+    {"browsers do not play {1}",
+     {"Browser spielen {1} nicht", "les navigateurs ne lisent pas {1}", "los navegadores no reproducen {1}"}},
+    {"the film has {1}", {"der Film hat {1}", "le film fait {1}", "la película tiene {1}"}},
+    {"This is a copy of at most 720 lines, since {1}; the film itself is {2} in the run's folder.",
+     {"Dies ist eine Kopie mit höchstens 720 Zeilen ({1}); der Film selbst ist {2} im Ordner des Laufs.",
+      "Ceci est une copie de 720 lignes au plus ({1}) ; le film lui-même est {2} dans le dossier du calcul.",
+      "Esto es una copia de 720 líneas como máximo ({1}); la película misma es {2} en la carpeta de la "
+      "simulación."}},
+    {"The film is not on this page, since {1}, and no copy could be made ({2}); it is {3} in the run's "
+     "folder.",
+     {"Der Film steht nicht auf dieser Seite ({1}), und eine Kopie gelang nicht ({2}); er ist {3} im Ordner "
+      "des Laufs.",
+      "Le film n’est pas sur cette page ({1}), et aucune copie n’a pu être faite ({2}) ; il est {3} dans le "
+      "dossier du calcul.",
+      "La película no está en esta página ({1}), y no se pudo hacer una copia ({2}); es {3} en la carpeta de "
+      "la simulación."}},
+    {"The film is not on this page, since {1} and even a smaller copy is too large for it; it is {2} in the "
+     "run's folder.",
+     {"Der Film steht nicht auf dieser Seite ({1}), und auch eine kleinere Kopie wäre zu groß; er ist {2} im "
+      "Ordner des Laufs.",
+      "Le film n’est pas sur cette page ({1}), et même une copie plus petite est trop grande ; il est {2} "
+      "dans le dossier du calcul.",
+      "La película no está en esta página ({1}), y hasta una copia más pequeña es demasiado grande; es {2} "
+      "en la carpeta de la simulación."}},
+    {"This version of the program would not run the scene, so it cannot tell which moments the film shows.",
+     {"Diese Version des Programms würde die Szene nicht rechnen, deshalb weiß sie nicht, welche Augenblicke "
+      "der Film zeigt.",
+      "Cette version du programme ne calculerait pas la scène ; elle ne sait donc pas quels instants le film "
+      "montre.",
+      "Esta versión del programa no ejecutaría la escena, así que no sabe qué momentos muestra la "
+      "película."}},
+    {"The film leaves out moments, and the run does not say which, so the film goes by itself. With "
+     "film.periods in the scene it would be tied to charts and bed.",
+     {"Der Film lässt Augenblicke aus, und der Lauf sagt nicht welche, deshalb läuft der Film für sich. Mit "
+      "film.periods in der Szene wäre er mit Kurven und Schüttung verbunden.",
+      "Le film saute des instants, et le calcul ne dit pas lesquels ; le film défile donc seul. Avec "
+      "film.periods dans la scène, il serait lié aux courbes et au lit de grains.",
+      "La película omite momentos, y la simulación no dice cuáles, así que va por su cuenta. Con "
+      "film.periods en la escena estaría ligada a las curvas y al lecho."}},
+    {"Which moments the film shows is not known, so it goes by itself.",
+     {"Welche Augenblicke der Film zeigt, ist nicht bekannt, deshalb läuft er für sich.",
+      "On ne sait pas quels instants le film montre ; il défile donc seul.",
+      "No se sabe qué momentos muestra la película, así que va por su cuenta."}},
 });
 
 }  // namespace grainreel

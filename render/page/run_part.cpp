@@ -309,7 +309,8 @@ std::vector<std::string> RunPart::news() const {
         add(table_fault_ + "; charts show those, and the page does not hold the file");
     for (const std::string& line : lacking_files()) add(line);
     news.insert(news.end(), bed_news_.begin(), bed_news_.end());
-    for (const std::string& note : {film_.note, times_.why_not, fields_.why_not}) add(note);
+    for (const std::string& note : {film_.note.in_english(), times_.why_not.in_english(), fields_.why_not})
+        add(note);
     for (const std::string& note : meshes_.notes()) news.push_back("on the page " + note);
     if (bed_.moments.size() < bed_.all_moments)
         news.push_back(fmt::format("the page has {} of the run's {} moments; there is no room for the others",

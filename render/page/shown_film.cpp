@@ -39,7 +39,7 @@ ShownFilm::ShownFilm(const FilmedScene& of, const fs::path& folder, std::size_t 
     if (auto kept = kept_film_times(folder, frames.value_or(0)))
         times_ = *kept;
     else
-        times_.why_not = "Which moments the film shows is not known, so it goes by itself.";
+        times_.why_not = PageNote("Which moments the film shows is not known, so it goes by itself.");
 }
 
 std::string ShownFilm::html(const std::string& about, const PageWords& say, const std::string& n,

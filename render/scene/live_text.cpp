@@ -9,6 +9,7 @@
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
+#include "engine/measure/flow/beverloo.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/scene/shown_values.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 // The first columns of measures.csv count steps and time: those of the observer Times
 // (engine/measure/observer_list.hpp).
 constexpr std::size_t kCounters = 4;
+constexpr std::string_view mean_name = "outflow_mean", law_name = "outflow_law";
 
 // The unit that ends the name of a column: "J" of kinetic_J; empty for outflow_rate.
 std::string unit_in_name(const MeasureColumn& column) {
@@ -25,9 +27,32 @@ std::string unit_in_name(const MeasureColumn& column) {
     return column.dimension != Dimension::number && unit_size_in(last, column.dimension) ? last : "";
 }
 
-LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& columns) {
+// The rate of outflow that is no column: its mean, or what the law expects.
+LiveWords rate_of(const std::string& name, const std::string& unit, const std::vector<MeasureColumn>& columns,
+                  const Scene* scene) {
+    if (find_column(columns, "outflow_kg") == nullptr)
+        throw UserError(
+            fmt::format("has {{{}}}, but no grain can leave; give the container an outlet", name));
+    LiveWords value;
+    value.column = "outflow_kg";
+    value.what = name == law_name ? LiveWords::What::law : LiveWords::What::mean_rate;
+    if (value.what == LiveWords::What::law) {
+        const std::string why = scene == nullptr ? "there is no outlet" : why_no_beverloo(*scene);
+        if (!why.empty())
+            throw UserError(
+                fmt::format("has {{{}}}, but Beverloo's law expects no rate here: {}", name, why));
+        value.expected = *beverloo_rate(*scene);
+    }
+    value.unit = unit.empty() ? "kg/s" : unit;
+    value.unit_size = unit_size(value.unit, Dimension::mass_flow);
+    return value;
+}
+
+LiveWords value_of(const std::string& inside, const std::vector<MeasureColumn>& columns, const Scene* scene) {
     const std::size_t colon = inside.find(':');
     const std::string name = inside.substr(0, colon);
+    if (name == mean_name || name == law_name)
+        return rate_of(name, colon == std::string::npos ? "" : inside.substr(colon + 1), columns, scene);
     const MeasureColumn* column = find_column(columns, name);
     if (column == nullptr)
         throw UserError("has {{{}}}, which is no column of measures.csv; there are {}", excerpt(name),
@@ -82,7 +107,8 @@ std::string column_names(const std::vector<MeasureColumn>& columns) {
     return known + ", and those of the instruments (docs/reference/measures.md)";
 }
 
-std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns) {
+std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns,
+                                       const Scene* scene) {
     std::vector<LiveWords> all;
     std::string words;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -94,13 +120,23 @@ std::vector<LiveWords> parse_live_text(const std::string& text, const std::vecto
         const std::size_t end = text.find('}', i);
         if (end == std::string::npos)
             throw UserError("has a { without its }; write {lacey} for a value, or {{ for a brace");
-        all.push_back(value_of(text.substr(i + 1, end - i - 1), columns));
+        all.push_back(value_of(text.substr(i + 1, end - i - 1), columns, scene));
         all.back().words = std::move(words);
         words.clear();
         i = end + length_of_unit(std::string_view(text).substr(end + 1), all.back().unit);
     }
-    if (!words.empty()) all.push_back({std::move(words), "", "", 1});
+    if (!words.empty()) all.emplace_back().words = std::move(words);
     return all;
+}
+
+std::optional<double> live_number(const LiveWords& part, const MeasureTable* table, std::size_t rows) {
+    if (part.what == LiveWords::What::law) return part.expected;
+    const auto column = table != nullptr && rows > 0 ? table->find(part.column) : std::nullopt;
+    if (!column) return std::nullopt;
+    if (part.what == LiveWords::What::last) return table->values(*column, rows - 1, rows).front();
+    const auto time = table->find("time_s");
+    if (!time) return std::nullopt;
+    return mean_outflow_rate(table->values(*time, 0, rows), table->values(*column, 0, rows));
 }
 
 std::string live_value(const std::optional<double>& value, const LiveWords& as) {

@@ -3,14 +3,17 @@
 // A value is a column of measures.csv, named with or without its unit, and has three significant digits.
 // After a colon stands the unit in which it is shown, % for a pure number; without a colon, that is the unit
 // in the column's name.
-// "{{" stands for a brace.
+// Two values are no columns: outflow_mean, the mean rate of what has run out, and outflow_law, the rate that
+// Beverloo's law expects (engine/measure/flow/beverloo.hpp). "{{" stands for a brace.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/measure/measures.hpp"
 #include "engine/scene/measurable.hpp"
+#include "engine/scene/scene.hpp"
 
 namespace grainreel {
 
@@ -20,6 +23,9 @@ struct LiveWords {
     std::string column;    // column of measures.csv; empty: no value
     std::string unit;      // shown after the value; empty for a pure number
     double unit_size = 1;  // SI
+    // The last value of the column; of outflow_kg also its mean rate, or what the law expects.
+    enum class What { last, mean_rate, law } what = What::last;
+    double expected = 0;  // SI, of the law
     bool operator==(const LiveWords&) const = default;
 };
 
@@ -35,11 +41,16 @@ const MeasureColumn* find_column(const std::vector<MeasureColumn>& columns, cons
 // "lacey, kinetic_J, ...": the names of the columns that are always there.
 std::string column_names(const std::vector<MeasureColumn>& columns);
 
-// Splits a text into words and values. Throws a UserError that says what is wrong with the text.
-std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns);
+// Splits a text into words and values. scene: for which the law expects a rate; null: none. Throws a
+// UserError that says what is wrong with the text.
+std::vector<LiveWords> parse_live_text(const std::string& text, const std::vector<MeasureColumn>& columns,
+                                       const Scene* scene = nullptr);
 
-// Writes the text with its values. value(column): the value of a column in the row to show; none when there
-// is no row yet.
+// The value that a part shows after the first `rows` rows of a table, which may be null. None where it is not
+// known yet.
+std::optional<double> live_number(const LiveWords& part, const MeasureTable* table, std::size_t rows);
+
+// Writes the text with its values. value(part): the value that a part shows; none where it is not known yet.
 template <class ValueOf>
 std::string live_text(const std::vector<LiveWords>& all, const ValueOf& value);
 // A value with its unit; a dash in its place if there is none.
@@ -50,7 +61,7 @@ std::string live_text(const std::vector<LiveWords>& all, const ValueOf& value) {
     std::string text;
     for (const LiveWords& part : all) {
         text += part.words;
-        if (!part.column.empty()) text += live_value(value(part.column), part);
+        if (!part.column.empty()) text += live_value(value(part), part);
     }
     return text;
 }

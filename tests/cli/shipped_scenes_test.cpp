@@ -47,7 +47,37 @@ TEST(ShippedScenes, AreFoundByNameAndByWordsOfIt) {
     EXPECT_EQ(shipped_scene_like("brazil-nut")->name, "teaching_brazil_nut");
     EXPECT_EQ(shipped_scene_like("wedge"), nullptr) << "there are several";
     EXPECT_EQ(nearest_shipped_scene("gravle"), "gravel");
+    EXPECT_EQ(nearest_shipped_scene("brazil-nuts"), "teaching_brazil_nut");
+    EXPECT_EQ(nearest_shipped_scene("convektion-box"), "convection_box");
     EXPECT_EQ(nearest_shipped_scene("/nowhere"), std::nullopt);
+}
+
+// In an installed program there is no folder scenes/studies.
+TEST(ShippedStudies, AreFoundByNameWithTheirSceneAndPoints) {
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(GRAINREEL_SOURCE "/scenes/studies")) {
+        const std::string name = entry.path().stem().string();
+        if (entry.path().extension() != ".toml") continue;
+        ++files;
+        ASSERT_NE(shipped_scene(name, shipped_studies()), nullptr) << name;
+        EXPECT_EQ(shipped_scene(name, shipped_studies())->text, text_of(entry.path()));
+    }
+    EXPECT_EQ(files, shipped_studies().size());
+    const TemporaryFolder folder;
+    const auto study = [&](const char* name, const char* how) {
+        return run_program({"study", name, how}, {.folder = folder.path()});
+    };
+    const Ended drum = study("drum-mixing", "--dry-run");
+    EXPECT_EQ(drum.status, 0) << drum.err;
+    EXPECT_THAT(drum.out, tells({"drum_mixing.toml", "output/drum_mixing"}));
+    EXPECT_EQ(study("surface_waves_fine", "--collect").status, 0) << "its points are in the program too";
+    EXPECT_TRUE(fs::exists(folder / "output/surface_waves_fine/study.toml"));
+    const Ended again = run_program({"study", "output/surface_waves_fine/study.toml", "--dry-run"},
+                                    {.folder = folder.path()});
+    EXPECT_EQ(again.status, 0) << again.err;
+    EXPECT_THAT(study("janssens", "--dry-run").err, tells({"janssens", "no such file", "'janssen'?"}));
+    EXPECT_THAT(study("intruder", "--dry-run").err, tells({"several", "intruder_shaking, intruder_size"}));
+    EXPECT_THAT(run_program({"scenes"}, {.folder = folder.path()}).out, tells({"brazil_nut_shaking"}));
 }
 
 // The first sentence is shown; a full stop inside a number does not end it.

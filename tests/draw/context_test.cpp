@@ -103,6 +103,24 @@ TEST(Context, SeveralOnOneThreadKeepApart) {
     }
 }
 
+TEST(Context, ARendererThatTakesTheOneOfAnotherDrawsTheSame) {
+    FilmedScene other = wedge();
+    other.film.width += 64;
+    other.film.camera.azimuth = 40;
+    const Picture alone = Renderer(other, 1).draw(heap(), "");
+    auto first = std::make_unique<Renderer>(wedge(), 1);
+    const Picture before = first->draw(heap(), "");
+    Renderer second(other, 1, Provider::automatic, first->context());
+    Renderer stranger(wedge(), 1);  // has a context of its own, which is current
+    EXPECT_EQ(second.draw(heap(), "").rgba, alone.rgba);
+    EXPECT_EQ(first->draw(heap(), "").rgba, before.rgba);
+    EXPECT_EQ(first->context(), second.context());
+    EXPECT_NE(first->context(), stranger.context());
+    stranger.draw(frame_of({}), "");
+    first.reset();
+    EXPECT_EQ(second.draw(heap(), "").rgba, alone.rgba);
+}
+
 TEST(Context, TwoRenderersTakeTurns) {
     Renderer one(wedge(), 1, Provider::automatic), two(wedge(), 1, Provider::egl);
     const Picture first = one.draw(heap(), ""), second = two.draw(frame_of({}), "");

@@ -228,6 +228,25 @@ TEST(UnknownCells, AWordAmongTypesThatAreNumbersIsTold) {
         EXPECT_EQ(quiet.find("types are numbers"), std::string::npos) << quiet;
 }
 
+// A type that --species names and no grain has may come later, so it is told; a word among numbers is a slip.
+TEST(UnknownCells, ATypeThatNoGrainHasIsTold) {
+    const TemporaryFolder folder;
+    const auto news_of = [&](const std::string& types, const ReadingOptions& options) {
+        write_text(folder / "a.csv", "id,type,x,y,z,radius\n1," + types + ",0,0,0,0.1\n");
+        std::string all;
+        for (const std::string& line : ForeignArchive(folder / "a.csv", options).news()) all += line + "\n";
+        return all;
+    };
+    ReadingOptions later, slip;
+    later.species = {{"1", "small"}, {"3", "big"}};
+    slip.species = {{"sand", "1"}};
+    EXPECT_THAT(news_of("1", later), tells({"--species", "a.csv", "3", "no grain", "type is"}));
+    EXPECT_THAT(news_of("glass", slip), tells({"--species", "a.csv", "sand", "no grain", "glass"}));
+    EXPECT_EQ(news_of("3", {}).find("no grain"), std::string::npos);
+    EXPECT_THAT([&] { news_of("1", slip); },
+                testing::ThrowsMessage<UserError>(tells({"--species", "a.csv", "sand", "no grain"})));
+}
+
 TEST(UnknownCells, AWordInAColumnOfNumbersIsRefusedWithItsRow) {
     const TemporaryFolder folder;
     for (const auto& [member, name] : {std::pair(&Words::id, "id"),

@@ -58,7 +58,7 @@ TEST(FilmTimes, LockedFramesAreWholePeriodsApart) {
     const FilmTimes film = film_times(scene_with(locked), 11, 0, true);
     ASSERT_THAT(film.times, SizeIs(11));
     for (std::size_t k = 0; k < 11; ++k) EXPECT_NEAR(film.times[k], static_cast<double>(k) * 2 / 20, 1e-9);
-    EXPECT_EQ(film.why_not, "");
+    EXPECT_EQ(film.why_not.in_english(), "");
 }
 
 TEST(FilmTimes, FramesThatHoldACaptionShowItsMoment) {
@@ -78,7 +78,7 @@ hold = "0.1 s"
 TEST(FilmTimes, AFilmOfAnotherLengthHasNone) {
     const FilmTimes film = film_times(scene_with(locked), 6, 0, true);
     EXPECT_THAT(film.times, IsEmpty());
-    EXPECT_THAT(film.why_not, HasSubstr("leaves out moments"));
+    EXPECT_THAT(film.why_not.in_english(), HasSubstr("leaves out moments"));
 }
 
 TEST(FilmTimes, OfAStoppedRunTheFirstFramesAreKnown) {

@@ -45,13 +45,18 @@ class PageFilmTest : public testing::Test {
     FilmedScene scene;
 };
 
+// The note on a German page.
+std::string german(const PageNote& note) {
+    return PageWords({Language::de, {}})(note);
+}
+
 TEST_F(PageFilmTest, ASmallFilmThatBrowsersPlayIsTakenAsItIs) {
     make_film(FilmFormat::mp4, 64, 48);
     const PageFilm film = page_film(scene, here.path());
     const std::string bytes = test::text_of(here / "movie.mp4");
     EXPECT_TRUE(std::string(film.bytes.begin(), film.bytes.end()) == bytes);
     EXPECT_EQ(film.type, "video/mp4");
-    EXPECT_EQ(film.note, "");
+    EXPECT_EQ(film.note.in_english(), "");
 }
 
 // A film of another format with 800 lines gets a copy of 720 lines, frame by frame.
@@ -59,7 +64,8 @@ TEST_F(PageFilmTest, AnotherFormatIsCopied) {
     make_film(FilmFormat::ffv1, 96, 800);
     const PageFilm film = page_film(scene, here.path());
     EXPECT_EQ(film.type, "video/mp4");
-    EXPECT_THAT(film.note, HasSubstr("browsers do not play"));
+    EXPECT_THAT(film.note.in_english(), HasSubstr("browsers do not play"));
+    EXPECT_THAT(german(film.note), tells({"Kopie mit höchstens", "Browser spielen", "Ordner des Laufs"}));
     std::ofstream(here / "copy.mp4", std::ios::binary)
         .write(reinterpret_cast<const char*>(film.bytes.data()),
                static_cast<std::streamsize>(film.bytes.size()));
@@ -105,14 +111,15 @@ TEST_F(PageCopyTest, TheRunsCopyIsTaken) {
     EXPECT_EQ(frames, 6);
     const PageFilm film = page_film(scene, here.path());
     EXPECT_EQ(std::string(film.bytes.begin(), film.bytes.end()), test::text_of(here / kPageCopy));
-    EXPECT_THAT(film.note, tells({"copy", "at most 720 lines"}));
+    EXPECT_THAT(film.note.in_english(), tells({"copy", "at most 720 lines"}));
 }
 
 TEST_F(PageCopyTest, ACopyThatIsTooLargeIsNotTaken) {
     copy(FilmFormat::ffv1, 96, 800);
     const PageFilm film = page_film(scene, here.path(), {}, kNoPageProgress, 100);
     EXPECT_TRUE(film.bytes.empty());
-    EXPECT_THAT(film.note, tells({"smaller copy", "too large"}));
+    EXPECT_THAT(film.note.in_english(), tells({"smaller copy", "too large"}));
+    EXPECT_THAT(german(film.note), tells({"kleinere Kopie", "der Film hat"}));
 }
 
 TEST_F(PageCopyTest, WhereTheFilmWillDoThereIsNone) {
@@ -153,18 +160,20 @@ TEST_F(PageFilmTest, ADamagedFilmIsLinkedAndSaidSo) {
     const PageFilm film = page_film(scene, here.path());
     EXPECT_TRUE(film.bytes.empty());
     EXPECT_EQ(film.file, "movie.mkv");
-    EXPECT_THAT(film.note, HasSubstr("movie.mkv is damaged"));
+    EXPECT_THAT(film.note.in_english(), HasSubstr("movie.mkv is damaged"));
+    EXPECT_THAT(german(film.note), HasSubstr("movie.mkv ist beschädigt"));
 }
 
 TEST_F(PageFilmTest, AFilmThatWasCutOffIsNotTaken) {
     make_film(FilmFormat::mp4, 64, 48);
     EXPECT_EQ(pictures_in(here / "movie.mp4"), 6);
-    EXPECT_EQ(page_film(scene, here.path(), 6).note, "");
+    EXPECT_EQ(page_film(scene, here.path(), 6).note.in_english(), "");
     const PageFilm film = page_film(scene, here.path(), 7);
     EXPECT_TRUE(film.bytes.empty());
-    EXPECT_THAT(film.note, HasSubstr("6 of the 7 pictures"));
+    EXPECT_THAT(film.note.in_english(), HasSubstr("6 of the 7 pictures"));
     std::filesystem::remove(here / "movie.mp4");
-    EXPECT_THAT(page_film(scene, here.path(), 6).note, tells({"movie.mp4", "not in", "run's folder"}));
+    EXPECT_THAT(page_film(scene, here.path(), 6).note.in_english(),
+                tells({"movie.mp4", "not in", "run's folder"}));
 }
 
 TEST_F(PageFilmTest, ThePosterIsAJpegOfAtMost960Pixels) {

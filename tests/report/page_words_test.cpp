@@ -81,6 +81,15 @@ TEST(PageWords, AreThoseOfTheFilmWhereItHasThem) {
     EXPECT_EQ(PageWords({}).with_words("{}"), "{}");  // English pages carry no words
 }
 
+// A note is told in English and stands on the page in its language, with all of its parts.
+TEST(PageWords, OfNotesHaveTheirPartsToo) {
+    const PageNote note("{1} of {2} s",
+                        {PageNote("the film has {1}", {std::string("{2} MB")}), std::string("Play")});
+    EXPECT_EQ(note.in_english(), "the film has {2} MB of Play s");
+    EXPECT_EQ(PageWords({Language::fr, {}})(note), "le film fait {2} MB sur Lecture s");
+    EXPECT_EQ(PageWords({Language::fr, {}})(PageNote()), "");
+}
+
 TEST(PageMeasures, HaveLabelsLanguageAndSmoothingOfTheFilm) {
     FilmedScene scene;
     scene.drive.present = true;

@@ -1,12 +1,14 @@
 // Tests of live words, which show measures in a film.
 #include "render/scene/live_text.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/flow/beverloo.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/tells.hpp"
 
@@ -21,7 +23,7 @@ const std::vector<MeasureColumn>& columns() {
 }
 
 std::string shown(const std::string& text, std::optional<double> value) {
-    return live_text(parse_live_text(text, columns()), [&](const std::string&) { return value; });
+    return live_text(parse_live_text(text, columns()), [&](const LiveWords&) { return value; });
 }
 
 TEST(LiveText, ShowsValuesInTheirUnits) {
@@ -37,6 +39,40 @@ TEST(LiveText, ShowsValuesInTheirUnits) {
     EXPECT_EQ(shown("{big_above_small} {big_in_top_quarter}", 0.5), "0.5 0.5");
     // A unit that the name does not have.
     EXPECT_EQ(shown("{outflow_rate} {outflow_rate:g/s} {outflow}", 0.0025), "0.0025 kg/s 2.5 g/s 0.0025 kg");
+}
+
+// The mean rate is that between 10 % and 70 % of what is out; the law's is that of the scene.
+TEST(LiveText, RatesOfOutflowAreNoColumns) {
+    const Scene scene = read_text(
+        "[[species]]\nname = \"sand\"\ncount = 10\ndiameter = \"2 mm\"\ndensity = \"2.5 g/cm3\"\n"
+        "[contact]\nrestitution = 0.8\nfriction = 0.4\n[container]\nshape = \"cylinder\"\n"
+        "diameter = \"60 mm\"\nheight = \"80 mm\"\noutlet = { diameter = \"14 mm\" }\n[run]\nduration = "
+        "\"1 s\"\n");
+    MeasureTable table({"time_s", "outflow_kg"});
+    const auto words =
+        parse_live_text("{outflow_mean:g/s} g/s of {outflow_law:g/s}", measure_columns(scene), &scene);
+    const auto after = [&](std::size_t rows) {
+        return live_text(words, [&](const LiveWords& part) { return live_number(part, &table, rows); });
+    };
+    const double law = 1000 * *beverloo_rate(scene);
+    EXPECT_EQ(after(0), fmt::format("– g/s of {:.3g} g/s", law));
+    // Nothing for a second, then 20 g/s, and after 5 s no more.
+    for (const auto& [time, gone] : {std::pair{0.0, 0.0},
+                                     {1.0, 0.0},
+                                     {2.0, 0.02},
+                                     {3.0, 0.04},
+                                     {4.0, 0.06},
+                                     {5.0, 0.08},
+                                     {6.0, 0.1},
+                                     {7.0, 0.1},
+                                     {8.0, 0.1}})
+        table.add({time, gone});
+    EXPECT_EQ(after(2), fmt::format("– g/s of {:.3g} g/s", law));
+    EXPECT_EQ(after(table.rows()), fmt::format("20 g/s of {:.3g} g/s", law));
+    const Scene closed = read_text(wedge_text);
+    EXPECT_THAT(
+        [&] { parse_live_text("{outflow_law}", columns(), &closed); },
+        testing::ThrowsMessage<UserError>(tells({"{outflow_law}", "Beverloo's law", "container.outlet"})));
 }
 
 // The unit comes with the value, so words that have it too do not double it.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `export` writes, as other programs read it: VTK, ASE, gsd, MDAnalysis; and the script for Blender, with a stand-in
+"""What `export` writes, as other programs read it: VTK, HDF5, ASE, gsd, MDAnalysis; and the script for Blender, with a stand-in
 for Blender. Usage: exports_test.py PROGRAM. Readers that are missing are named and left out; `./test --peers` installs them.
 Exit status 77: all of them are missing."""
 import importlib
@@ -88,6 +88,65 @@ def look_with_vtk(folder, grains):
         near = min(balls, key=lambda ball: math.dist(ball[0], place))
         expect(math.dist(near[0], place) < 0.02 * radius, f"VTK: no ball at {place}, the nearest at {near[0]}")
         expect(0.9 * radius < near[1] < 1.01 * radius, f"VTK: a ball of {near[1]} m, expected {radius}")
+
+
+def expect_grains(found, grains, what):
+    """found: place, radius, id and type of each, in any order."""
+    expect(len(found) == len(grains), f"{what}: {len(found)} grains, expected {len(grains)}")
+    for one, (place, radius, number, kind) in zip(sorted(found, key=lambda each: each[2]), grains):
+        expect(math.dist(one[0], place) < 1e-6 and abs(one[1] - radius) < 1e-8 and one[2:] == (number, kind),
+               f"{what}: a grain is {one}, expected {(place, radius, number, kind)}")
+
+
+def look_with_vtkhdf(folder, grains):
+    """The .vtkhdf by VTK's own reader: a block for grains and one for walls, and in each step its moment. The reader of
+    ParaView 5.13, VTK 9.4, is the first for it (docs/guide/other-programs.md)."""
+    vtk = module("vtk")
+    version = vtk.vtkVersion().GetVTKVersion() if vtk else "0"
+    if [int(part) for part in version.split(".")[:2]] < [9, 4]:
+        LEFT_OUT.append(f"vtkHDFReader of VTK 9.4 (here is {version})")
+        return
+    reader = vtk.vtkHDFReader()
+    expect(reader.CanReadFile(str(folder / "r.vtkhdf")), "VTK: cannot read r.vtkhdf")
+    reader.SetFileName(str(folder / "r.vtkhdf"))
+    reader.UpdateInformation()
+    expect(reader.GetNumberOfSteps() == FRAMES, f"VTK: {reader.GetNumberOfSteps()} steps in r.vtkhdf")
+    reader.SetStep(FRAMES - 1)
+    reader.Update()
+    expect(abs(reader.GetTimeValue() - 0.04) < 1e-3, f"VTK: the last step is at {reader.GetTimeValue()} s")
+    blocks = reader.GetOutputDataObject(0)
+    names = [blocks.GetMetaData(k).Get(vtk.vtkCompositeDataSet.NAME()) for k in range(blocks.GetNumberOfPartitionedDataSets())]
+    expect(names[:2] == ["grains", "walls"], f"VTK: blocks {names}")
+    bed = blocks.GetPartitionedDataSet(0).GetPartition(0)
+    column = {name: bed.GetPointData().GetArray(name) for name in ("radius", "id", "type")}
+    expect_grains([(bed.GetPoint(k), column["radius"].GetValue(k), int(column["id"].GetValue(k)), int(column["type"].GetValue(k)))
+                   for k in range(bed.GetNumberOfPoints())], grains, "VTK: r.vtkhdf")
+    low_x, high_x, low_y, high_y, *_ = blocks.GetPartitionedDataSet(1).GetPartition(0).GetBounds()
+    expect(abs(high_x - low_x - 0.02) < 1e-6 and abs(high_y - low_y - 0.024) < 1e-6, "VTK: walls of another box in r.vtkhdf")
+
+
+def look_with_hdf5(folder, grains):
+    """The .vtkhdf as its specification says (VTK file formats, version 2.1), by offsets, without VTK."""
+    netcdf = module("netCDF4")
+    if not netcdf:
+        return
+    with netcdf.Dataset(str(folder / "r.vtkhdf")) as data:
+        root = data["VTKHDF"]
+        expect(root.Type == "PartitionedDataSetCollection" and list(root.Version) == [2, 1], "HDF5: another type of VTKHDF")
+        bed, steps = root["grains"], root["grains"]["Steps"]
+        expect(int(steps.NSteps) == FRAMES and abs(float(steps["Values"][-1]) - 0.04) < 1e-3, "HDF5: other steps")
+        part = int(steps["PartOffsets"][-1])
+        first, count = int(steps["PointOffsets"][-1]), int(bed["NumberOfPoints"][part])
+        points = bed["Points"][first:first + count]
+
+        def column(name):
+            offset = int(steps["PointDataOffsets"][name][-1])
+            return bed["PointData"][name][offset:offset + count]
+
+        expect_grains([(tuple(map(float, place)), float(radius), int(number), int(kind)) for place, radius, number, kind
+                       in zip(points, column("radius"), column("id"), column("type"))], grains, "HDF5: r.vtkhdf")
+        for kind in ("grains", "walls"):
+            expect(kind in root["Assembly"].groups and kind in root["Assembly"][kind].groups, f"HDF5: no {kind} in the assembly")
 
 
 def look_with_ase(folder, grains):
@@ -243,13 +302,13 @@ def look_as_blender(folder, grains):
 
 def main():
     program = os.path.abspath(sys.argv[1])
-    readers = [look_with_vtk, look_with_ase, look_with_gsd, look_with_mdanalysis, look_as_blender]
+    readers = [look_with_vtk, look_with_vtkhdf, look_with_hdf5, look_with_ase, look_with_gsd, look_with_mdanalysis, look_as_blender]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "s.toml").write_text(SCENE)
         quiet = {"cwd": folder, "check": True, "capture_output": True}
         subprocess.run([program, "movie", "s.toml", "--out", "r", "--no-film", "--no-report", "--threads", "1"], **quiet)
-        for form in ("csv", "gltf", "xyz", "lammps-dump", "lammps-data", "netcdf", "gsd", "blender"):
+        for form in ("csv", "gltf", "xyz", "lammps-dump", "lammps-data", "netcdf", "gsd", "blender", "vtkhdf"):
             subprocess.run([program, "export", "r", "--to", form], **quiet)
         grains = grains_of(folder / "r.csv")
         expect([sum(one[3] == s + 1 for one in grains) for s in (0, 1)] == COUNTS, "the run has other grains")

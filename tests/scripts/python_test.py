@@ -164,9 +164,11 @@ def check_frames(run):
     for part, (vector, axis) in {"x": ("coordinates", 0), "vz": ("velocities", 2), "wy": ("spin", 1)}.items():
         expect((trajectory[part].values == trajectory[vector].values[..., axis]).all(), f"{part} is another")
         expect(trajectory[part].attrs["units"] == trajectory[vector].attrs["units"], f"{part} has another unit")
-    kinds = numpy.array(["small", "big"])[trajectory.type.values - 1]
-    expect((trajectory.species.values == kinds).all(), "the species have other names than their numbers")
-    expect((trajectory.species[1:, 3:5].values == kinds[1:, 3:5]).all(), "a part of the species is another")
+    kinds = numpy.array(["small", "big"])[trajectory.type.values - 1]  # of each frame
+    expect(trajectory.species.dims == ("atom",) and (trajectory.species.values == kinds).all(),
+           "the species have other names than their numbers")
+    expect((trajectory.species[3:5].values == kinds[0, 3:5]).all(), "a part of the species is another")
+    expect((trajectory.sel(id=[7, 3]).z.values == trajectory.z.values[:, [7, 3]]).all(), "grains by id are others")
     expect(list(run[1:3][1].z.values) == list(trajectory.z.values[2]), "a slice has other frames")
     contacts = run.contacts
     expect((contacts.z.values == contacts.point.values[:, 2]).all(), "z of contacts is another")
@@ -199,6 +201,8 @@ def check_empty_frames():
     expect(list(climbed.id.values) == list(run[2].id.values), f"{climbed.sizes} of {counts} grains are compared")
     grain = int(run[2].id[3])
     expect(float(climbed.sel(id=grain)) == float(run[-1].sel(id=grain).z) - float(run[2].z[3]), "grains are mixed up")
+    path = run.trajectory.sel(id=grain)
+    expect(float(path.z[-1]) == float(run[-1].sel(id=grain).z) and str(path.species.values) == "glass", "a grain's way")
     fields = run.to_dataframe("fields")
     points = int(numpy.prod([run.fields.sizes[name] for name in ("time", "y", "z")]))
     expect(len(fields) == points and {"time", "y", "z", "density"} <= set(fields), f"{len(fields)} of {points} points")

@@ -331,10 +331,7 @@ TEST(StudyCharts, AreDrawnWhateverTheNames) {
 
 TEST(StudyReference, IsReadRowByRow) {
     const StudyFolderOfTest folder;
-    const auto read = [&](const std::string& text) {
-        write_text(folder / "points.csv", text);
-        return read_reference(folder / "points.csv");
-    };
+    const auto read = [&](const std::string& text) { return read_reference(text, folder / "points.csv"); };
     const std::vector<ReferencePoint> from_spreadsheet = read(
         "\xef\xbb\xbf"
         "1,2\r\n3,4\r\n");

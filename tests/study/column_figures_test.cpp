@@ -9,6 +9,7 @@
 #include <random>
 
 #include "engine/base/error.hpp"
+#include "engine/measure/flow/beverloo.hpp"
 #include "engine/questions/discharge.hpp"
 #include "engine/questions/field_means.hpp"
 #include "engine/questions/steadiness.hpp"

@@ -136,6 +136,22 @@ TEST(StudyParametersTable, HasSeedsAndUnitsOfWhatIsVaried) {
     const std::string table = parameters.table(study);
     EXPECT_THAT(table, HasSubstr("\nspecies.big.diameter,mm,,5,5.5,6,5,5.5,6,\n"));
     EXPECT_THAT(table, HasSubstr("\nrun.seed,,\"1, 2\",,,,,,,\n"));
+    EXPECT_THAT(table, testing::Not(HasSubstr("packing.settled")));
+}
+
+// For how long the packings settled is known of members that have run.
+TEST(StudyParametersTable, HasTheSettlingOfMembersThatHaveRun) {
+    const StudyFolderOfTest folder;
+    const Study study = folder.read(small_study);
+    StudyParameters parameters;
+    const std::vector<Member> members = make_members(
+        study, [&](const FilmedScene& scene, const Plan& plan) { parameters.add_setting(scene, plan); });
+    std::vector<MemberResult> results(members.size());
+    results[0].settled = 0.25;
+    results[1].settled = 0.375;
+    results[3].settled = 0.5;
+    EXPECT_THAT(parameters.table(study, members, results),
+                HasSubstr("\npacking.settled,s,,\"0.25, 0.375\",0.5,,,,,Simulated time"));
 }
 
 }  // namespace

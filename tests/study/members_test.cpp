@@ -173,7 +173,7 @@ TEST(StudyCopy, IsAStudyAsItStands) {
     }
     const Study again = read_study(made / "study.toml");
     EXPECT_EQ(again.title, "study");
-    EXPECT_EQ(read_reference(*again.charts[0].reference).size(), 1u);
+    EXPECT_EQ(read_reference(again.charts[0].reference_text, *again.charts[0].reference).size(), 1u);
     const auto members = make_members(again, [](const FilmedScene&, const Plan&) {});
     ASSERT_EQ(members.size(), names.size());
     for (std::size_t m = 0; m < members.size(); ++m) EXPECT_EQ(members[m].name, names[m]);

@@ -3,6 +3,7 @@
 #include "engine/files/foreign/foreign_archive.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -35,6 +36,28 @@ std::string line_of_stray_type(const TypeList& types, const ReadingOptions& opti
                 "file if it is a slip, or name that species by --species",
                 file, excerpt(word));
     return "";
+}
+
+// The line that tells of types that --species names and no grain has. They may come later, where files grow;
+// but a word does not come among types that are numbers. Throws UserError for such a word. Empty if all are
+// there.
+std::string line_of_absent_types(const TypeList& types, const ReadingOptions& options,
+                                 const std::string& file) {
+    const std::vector<std::string>& there = types.words();
+    if (there.empty()) return "";
+    std::vector<std::string> absent;
+    for (const auto& [word, name] : options.species)
+        if (!types.place(word)) absent.push_back(excerpt(word));
+    if (absent.empty()) return "";
+    const std::string words = fmt::format(
+        "--species names the type{} {}, which no grain of {} has; {}", absent.size() == 1 ? "" : "s",
+        fmt::join(absent, ", "), file,
+        there.size() == 1
+            ? "its type is " + excerpt(there[0])
+            : fmt::format("its types are {}", excerpt(fmt::format("{}", fmt::join(there, ", ")))));
+    const bool numbers = std::all_of(there.begin(), there.end(), is_numbered);
+    if (numbers && !std::all_of(absent.begin(), absent.end(), is_numbered)) throw UserError(words);
+    return words;
 }
 
 }  // namespace
@@ -77,6 +100,9 @@ void ForeignArchive::survey() {
     for (const std::size_t k : looks())
         if (look_at(k) && looks_ == Looks::first) break;
     count_grains();
+    if (looks_ != Looks::first)
+        if (std::string absent = line_of_absent_types(types_, options_, path_.string()); !absent.empty())
+            news_.push_back(std::move(absent));
     for (const auto& [word, name] : options_.species) types_.add(word);
     if (!meaning_) {
         // No frame has a grain, so the columns get the meaning of an empty table.

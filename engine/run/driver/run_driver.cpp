@@ -46,7 +46,8 @@ RunDriver::RunDriver(const Scene& scene, const Plan& plan, ResumePoint point)
       frames_before_(point.frames),
       former_end_(point.reached),
       changed_(point.changed),
-      accepted_(std::move(point.accepted)) {
+      accepted_(std::move(point.accepted)),
+      settled_(point.settled) {
     if (point.deepest) simulation_.set_deepest_contact(std::move(*point.deepest));
 }
 
@@ -96,6 +97,7 @@ bool RunDriver::pack(const PackingWatcher& watcher) {
             [&](const PackingResult& result) { keep_packing_of(key, result, packing.seconds()); });
         if (!packing_.finished) return false;
     }
+    if (packing_.settle_time > 0) settled_ = packing_.settle_time;
     first_step_ = simulation_.step();
     packed_ = true;
     return true;
@@ -368,6 +370,7 @@ void RunDriver::conclude(RunJson& record) const {
     record.state_hash = state_hash_;
     record.final_table = final_table_;
     if (!packed_) return;
+    record.settled = settled_;
     if (simulation_.deepest_contact().share > 0) record.deepest = simulation_.deepest_contact();
     record.steps = simulation_.step();
     record.simulated = plan_.clock.time(record.steps);

@@ -136,6 +136,7 @@ class RunDriver {
     std::int64_t former_end_ = 0;  // step
     bool former_kept_ = false, changed_ = false;
     std::vector<AcceptedKey> accepted_;
+    std::optional<double> settled_;  // s, of the packing; none if nothing settled
     ReadyFiles ready_;
     FilmWishes wishes_;
     KeptStates kept_;

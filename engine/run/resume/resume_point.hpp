@@ -27,6 +27,7 @@ struct ResumePoint {
     bool changed = false;                     // whether the scene changes from there on
     std::vector<AcceptedKey> accepted{};      // keys that were changed on the run's way up to there
     std::optional<DeepestContact> deepest{};  // of the run so far, as its run.json has it
+    std::optional<double> settled{};          // s, of its packing, likewise
 };
 
 // For a caller that needs all frames of the run again, such as a film: returns the last step from which the

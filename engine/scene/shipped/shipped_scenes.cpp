@@ -1,5 +1,5 @@
-// Finds shipped scenes by their names. The build generates their list, shipped_scenes(), from the files in
-// scenes/ (embed_scenes.cmake). A new scene needs no change here.
+// Finds shipped scenes and studies by their names. The build generates their lists, shipped_scenes() and so
+// on, from the files in scenes/ (embed_scenes.cmake). A new scene needs no change here.
 #include "engine/scene/shipped/shipped_scenes.hpp"
 
 #include <algorithm>
@@ -43,32 +43,47 @@ std::string ShippedScene::about() const {
     return comment;
 }
 
-const ShippedScene* shipped_scene(std::string_view name) {
+const ShippedScene* shipped_scene(std::string_view name, const std::vector<ShippedScene>& among) {
     const std::string plain = plain_name(name);
-    const auto& all = shipped_scenes();
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const ShippedScene& scene) { return scene.name == plain; });
-    return found == all.end() ? nullptr : &*found;
+    const auto found = std::find_if(among.begin(), among.end(),
+                                    [&](const ShippedScene& scene) { return scene.name == plain; });
+    return found == among.end() ? nullptr : &*found;
 }
 
-std::vector<const ShippedScene*> shipped_scenes_with(std::string_view words) {
+std::vector<const ShippedScene*> shipped_scenes_with(std::string_view words,
+                                                     const std::vector<ShippedScene>& among) {
     const std::string wanted = "_" + plain_name(words) + "_";
     std::vector<const ShippedScene*> matches;
-    for (const ShippedScene& scene : shipped_scenes())
+    for (const ShippedScene& scene : among)
         if (("_" + scene.name + "_").find(wanted) != std::string::npos) matches.push_back(&scene);
     return matches;
 }
 
-const ShippedScene* shipped_scene_like(std::string_view words) {
-    if (const ShippedScene* exact = shipped_scene(words)) return exact;
-    const std::vector<const ShippedScene*> matches = shipped_scenes_with(words);
+const ShippedScene* shipped_scene_like(std::string_view words, const std::vector<ShippedScene>& among) {
+    if (const ShippedScene* exact = shipped_scene(words, among)) return exact;
+    const std::vector<const ShippedScene*> matches = shipped_scenes_with(words, among);
     return matches.size() == 1 ? matches.front() : nullptr;
 }
 
-std::optional<std::string> nearest_shipped_scene(std::string_view name) {
-    std::vector<std::string> names;
-    for (const ShippedScene& scene : shipped_scenes()) names.push_back(scene.name);
-    return nearest_name(plain_name(name), names);
+// Whole names, or their beginnings and ends, word by word: "brazil_nuts" is near to the end of
+// teaching_brazil_nut.
+std::optional<std::string> nearest_shipped_scene(std::string_view name,
+                                                 const std::vector<ShippedScene>& among) {
+    std::vector<std::string> parts, whole;
+    const auto add = [&](const std::string& part, const std::string& of) {
+        parts.push_back(part);
+        whole.push_back(of);
+    };
+    for (const ShippedScene& scene : among) add(scene.name, scene.name);
+    for (const ShippedScene& scene : among)
+        for (std::size_t at = scene.name.find('_'); at != std::string::npos;
+             at = scene.name.find('_', at + 1)) {
+            add(scene.name.substr(at + 1), scene.name);
+            add(scene.name.substr(0, at), scene.name);
+        }
+    const std::optional<std::string> near = nearest_name(plain_name(name), parts);
+    if (!near) return std::nullopt;
+    return whole[static_cast<std::size_t>(std::find(parts.begin(), parts.end(), *near) - parts.begin())];
 }
 
 }  // namespace grainreel

@@ -125,7 +125,8 @@ class Desk {
         Assignments all = what_.sets;
         all.insert(all.end(), sets.begin(), sets.end());
         auto source = std::make_unique<StoredShots>(what_.run, sets_for_still(all), what_.replay);
-        auto painter = std::make_unique<StillPainter>(*source, film_, what_.print, notes_);
+        auto painter = std::make_unique<StillPainter>(*source, film_, what_.print, notes_,
+                                                      painter_ ? painter_->context() : nullptr);
         painter_ = std::move(painter);
         source_ = std::move(source);
         sets_ = sets;

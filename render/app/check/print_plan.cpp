@@ -7,10 +7,10 @@
 #include <numbers>
 #include <sstream>
 
+#include "engine/measure/flow/beverloo.hpp"
 #include "engine/mesh/room.hpp"
 #include "engine/mesh/surface.hpp"
 #include "engine/plan/plan_bed.hpp"
-#include "engine/questions/discharge.hpp"
 #include "engine/scene/bed.hpp"
 #include "engine/scene/drive_schedule.hpp"
 #include "engine/state/glued_grains.hpp"

@@ -324,13 +324,14 @@ class Inspection {
         return overview_of(snapshot);
     }
 
-    // Adds the option's name to a mistake in a question.
+    // Adds the option's name to a mistake in a question, unless this names an option itself.
     template <class Ask>
     static auto named(const char* option, const Ask& ask) -> decltype(ask()) {
         try {
             return ask();
         } catch (const UserError& mistake) {
-            throw UserError("{}: {}", option, mistake.what());
+            const std::string words = mistake.what();
+            throw UserError(words.starts_with("--") ? words : fmt::format("{}: {}", option, words));
         }
     }
 

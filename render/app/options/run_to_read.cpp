@@ -121,7 +121,7 @@ RunToRead run_to_read(const fs::path& path, const ReadingOptions& reading, Repor
     const Imported run = cached_import(request);
     reporter.name_import(run.folder, path);
     for (const std::string& line : run.news) reporter.info(line);
-    return {run.folder, folder_holding(path), true};
+    return {run.folder, folder_holding(path), true, run.news};
 }
 
 // Options for files of other programs.

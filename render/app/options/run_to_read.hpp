@@ -24,6 +24,7 @@ struct RunToRead {
     // The folder in which results are put: that of the imported files, or that around the run.
     std::filesystem::path beside;
     bool imported = false;
+    std::vector<std::string> news{};  // what was told of imported files
 };
 
 // The folder that a file, a pattern or a folder lies in. Unlike folder_around(), it knows patterns and folders.

@@ -105,6 +105,7 @@ struct StudyChart {
     std::string font = "DejaVu Sans";
     double letters = 8;                              // height of letters in points, on paper
     std::optional<std::filesystem::path> reference;  // a CSV file of points from elsewhere
+    std::string reference_text = {};                 // its contents
     std::string reference_label;
 };
 
@@ -122,6 +123,7 @@ struct StudySearch {
 struct Study {
     std::filesystem::path file, scene;
     std::string text, scene_text;  // contents of these files as they were read
+    bool shipped = false;          // these files are parts of the program
     std::string title;
     Assignments sets;           // assignments for every member
     Seeds seeds;                // empty: the scene's own

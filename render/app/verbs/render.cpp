@@ -139,8 +139,12 @@ class Render final : public Verb {
         }
         if (follow_) return follow(reporter);
         const RunToRead read = run_to_read(request_.run, reading_, reporter);
+        if (read.imported) {
+            request_.beside = read.beside;
+            request_.named = request_.run.string();
+            request_.told = read.news;
+        }
         request_.run = read.folder;
-        if (read.imported) request_.beside = read.beside;
         request_.frame_of_file = read.imported;
         if (asked_) return draw_asked_pictures(film_, request_, reporter);
         if (read.imported && !is_still() && !request_.every) request_.every = 1;

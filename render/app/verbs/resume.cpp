@@ -106,6 +106,7 @@ class Resume final : public Verb {
         const RunJson former = read_run_json(folder / "run.json").record;
         point.accepted = former.accepted;
         point.deepest = former.deepest;
+        point.settled = former.settled;
         if (!changes.empty()) take_up(changes, folder, scene, plan, point, threads);
         reporter.info(fmt::format("{}: goes on from {:.6g} s to {:.6g} s", folder.string(),
                                   plan.clock.time(point.simulation.step()), scene.run.duration));

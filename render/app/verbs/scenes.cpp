@@ -1,4 +1,4 @@
-// The verb `scenes` lists the scenes that come with the program.
+// The verb `scenes` lists the scenes and studies that come with the program.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -13,8 +13,9 @@ namespace {
 class Scenes final : public Verb {
   public:
     Scenes()
-        : Verb("scenes", "List the scenes that come with the program",
+        : Verb("scenes", "List the scenes and studies that come with the program",
                "Each runs by its name from any folder:  grainreel movie wedge_segregation\n"
+               "Studies likewise:  grainreel study brazil_nut_shaking --dry-run\n"
                "To get one as a file that you can change:  grainreel new --from wedge_segregation\n"
                "Exit status: 0 done, 2 a mistake in the options.") {}
 
@@ -22,10 +23,16 @@ class Scenes final : public Verb {
 
     int run(Reporter&) override {
         std::size_t width = 0;
-        for (const ShippedScene& scene : shipped_scenes()) width = std::max(width, scene.name.size());
+        for (const auto* list : {&shipped_scenes(), &shipped_studies()})
+            for (const ShippedScene& scene : *list) width = std::max(width, scene.name.size());
         std::string text;
-        for (const ShippedScene& scene : shipped_scenes())
-            text += fmt::format("{:<{}}  {}\n", scene.name, width, scene.about());
+        const auto add = [&](const std::vector<ShippedScene>& list) {
+            for (const ShippedScene& scene : list)
+                text += fmt::format("{:<{}}  {}\n", scene.name, width, scene.about());
+        };
+        add(shipped_scenes());
+        text += "\nStudies:\n";
+        add(shipped_studies());
         print_result(text);
         return 0;
     }

@@ -53,8 +53,10 @@ class StudyVerb final : public Verb {
 
     void add_options(CLI::App& parser) override {
         parser
-            .add_option("STUDY", file_,
-                        "The study, a TOML file; docs/guide/studies.md tells how to write one")
+            .add_option(
+                "STUDY", file_,
+                "The study, a TOML file, or the name of a shipped one; docs/guide/studies.md tells how to "
+                "write one")
             ->required()
             ->type_name("FILE");
         add_out_folder(parser, out_,
@@ -93,7 +95,7 @@ class StudyVerb final : public Verb {
         request_.cache = shortest_packing_ || (said != nullptr && std::string_view(said) == "off");
         std::vector<std::vector<ReferencePoint>> references;
         for (const StudyChart& chart : study.charts)
-            references.push_back(chart.reference ? read_reference(*chart.reference)
+            references.push_back(chart.reference ? read_reference(chart.reference_text, *chart.reference)
                                                  : std::vector<ReferencePoint>());
         folder_.path =
             std::filesystem::absolute(out_.value_or(output_base() / study.file.stem())).lexically_normal();
@@ -320,7 +322,7 @@ class StudyVerb final : public Verb {
         replace_file(folder_.path / "settings.csv", setting_table(study, members_, results_));
         replace_file(folder_.path / "units.csv", unit_table(study));
         if (!search_file_.empty()) replace_file(folder_.path / "search.json", search_file_);
-        replace_file(folder_.path / "parameters.csv", parameters_.table(study));
+        replace_file(folder_.path / "parameters.csv", parameters_.table(study, members_, results_));
         const DrawnCharts charts = draw_charts(study, members_, results_, references, folder_.charts());
         if (!charts.drawn)
             reporter.warning(

@@ -50,6 +50,7 @@ RedrawJob::RedrawJob(const FilmRequest& request, const RenderRequest& what, List
     : FilmJob(request, listener),
       source_(source),
       scene_(source.scene()),
+      named_(what.named.empty() ? source.run().path().string() : what.named),
       kept_alone_(what.every.has_value()) {
     check_out(request, source.run().path());
     check_times(what, source.run(), source.film().moment(source.film().last_step()).time);
@@ -69,6 +70,7 @@ RedrawJob::RedrawJob(const FilmRequest& request, const RenderRequest& what, List
         what.beside.empty() ? source.run().path().parent_path() : what.beside;
     const std::string which = parts_ ? parts_->folder_name() : "-render";
     make_folder({scene_.name + which, beside, request.out, request.force});
+    for (const std::string& line : what.told) desk_.log->info(line);
 }
 
 void RedrawJob::choose_parts(const PartsWanted& wanted) {
@@ -259,8 +261,8 @@ void RedrawJob::report_written() {
     desk_.listener.info(fmt::format("wrote {}: {}run.json, log.txt", folder().string(), film_.files_text()));
     desk_.listener.info(
         fmt::format("took {}: {} of {}, from {:.6g} to {:.6g} s", duration_text(desk_.watch.seconds()),
-                    counted(film_.result().frames, "frame"), source_.run().path().string(),
-                    film.moment(shots.front().step).time, film.moment(shots.back().step).time));
+                    counted(film_.result().frames, "frame"), named_, film.moment(shots.front().step).time,
+                    film.moment(shots.back().step).time));
 }
 
 }  // namespace grainreel

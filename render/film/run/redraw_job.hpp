@@ -41,8 +41,9 @@ class RedrawJob final : public FilmJob {
     std::string caption_of(const Taken& picture) const;
 
     StoredShots& source_;
-    FilmedScene scene_;       // the run's scene, with a film of these pictures
-    std::vector<Due> shots_;  // the film's shots, each at the step that is shown
+    FilmedScene scene_;        // the run's scene, with a film of these pictures
+    const std::string named_;  // what the user calls what is drawn
+    std::vector<Due> shots_;   // the film's shots, each at the step that is shown
     std::optional<FilmInParts> parts_;
     bool kept_alone_ = false;                                     // only frames of the trajectory are drawn
     std::size_t brought_back_ = 0, replaced_ = 0, left_out_ = 0;  // numbers of shots

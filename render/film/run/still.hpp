@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -24,12 +25,15 @@ struct OwnColours {
     std::vector<double> value;     // NaN: not known
 };
 
-// Draws moments of one run. The OpenGL context stays from picture to picture, so the second is drawn sooner.
+// Draws moments of one run. The OpenGL context stays from picture to picture, also where colours are others,
+// so the second is drawn sooner.
 // A picture has the same bytes whatever was drawn before. Source and listener must outlive it. Construct and
 // use it on one thread.
 class StillPainter {
   public:
-    StillPainter(StoredShots& source, const FilmRequest& request, const PrintSize& print, Listener& listener);
+    // kept: the context of an earlier painter on this thread, which is taken in place of a new one.
+    StillPainter(StoredShots& source, const FilmRequest& request, const PrintSize& print, Listener& listener,
+                 std::shared_ptr<DrawingContext> kept = nullptr);
 
     struct Drawn {
         const Picture* picture;  // until the next call; null where it was drawn on a page
@@ -44,6 +48,7 @@ class StillPainter {
                               PdfPage* page = nullptr);
 
     const FilmedScene& scene() const { return scene_; }
+    std::shared_ptr<DrawingContext> context() const { return kept_; }  // none before the first picture
 
   private:
     void tell_once(const std::vector<std::string>& lines);
@@ -53,6 +58,7 @@ class StillPainter {
     Listener& listener_;
     const gl::Provider gl_;
     FilmedScene scene_;
+    std::shared_ptr<DrawingContext> kept_;  // serves one renderer after the other
     std::optional<Renderer> renderer_;
     std::set<std::string> told_;  // warnings
 };

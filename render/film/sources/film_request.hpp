@@ -48,7 +48,11 @@ struct PartsWanted {
 struct RenderRequest {
     std::filesystem::path run;     // its folder
     std::filesystem::path beside;  // the folder for the result without --out; empty: beside the run
-    Assignments sets;              // values given to keys of its film
+    // Of another program's files: what the user calls them, and what was told while they were read, which
+    // log.txt has too.
+    std::string named;
+    std::vector<std::string> told;
+    Assignments sets;  // values given to keys of its film
     std::optional<double> from, to, at;
     std::optional<std::int64_t> frame;  // in place of `at`: number of the film's frame, from 0
     // In place of `at`: periods of the drive, and the part of the next one that has passed.

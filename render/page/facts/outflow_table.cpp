@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/base/mathematics.hpp"
+#include "engine/measure/flow/beverloo.hpp"
 #include "engine/questions/discharge.hpp"
 #include "engine/scene/text/units.hpp"
 #include "render/page/embed.hpp"

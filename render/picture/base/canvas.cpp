@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "engine/base/error.hpp"
+
 namespace grainreel {
 namespace {
 
@@ -120,6 +122,15 @@ void ShapePainter::paint(const Shapes& shapes, int width, int height) const {
     gl_.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(shapes.vertices().size()));
     gl_.Disable(GL_BLEND);
+}
+
+// The painter's objects belong to the context, so it must be current.
+DrawingContext::~DrawingContext() {
+    try {
+        context->make_current();
+    } catch (const RunError&) {
+        // If no context is current, all that the context owns is deleted with the context itself.
+    }
 }
 
 }  // namespace grainreel

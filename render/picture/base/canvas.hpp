@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "render/picture/gl/opengl.hpp"
@@ -61,6 +62,18 @@ class ShapePainter {
     gl::Program program_;
     gl::VertexArray array_;
     gl::Buffer buffer_;
+};
+
+// An OpenGL context with the shapes' painter. To make one takes about 80 ms of a processor, most of it for
+// compiling, so renderers on one thread that follow each other may have the same one.
+struct DrawingContext {
+    DrawingContext(gl::Provider provider, int raster_threads)
+        : context(gl::make_context(provider, raster_threads)), shape_painter(context->gl()) {}
+    ~DrawingContext();
+    DrawingContext(const DrawingContext&) = delete;
+    DrawingContext& operator=(const DrawingContext&) = delete;
+    std::unique_ptr<gl::Context> context;
+    ShapePainter shape_painter;
 };
 
 }  // namespace grainreel

@@ -36,17 +36,19 @@ std::uint32_t background(const Colour& colour, bool transparent) {
 }  // namespace
 
 struct Renderer::Impl {
-    Impl(const FilmedScene& s, const PictureLayout& plan, int raster_threads, gl::Provider provider)
+    Impl(const FilmedScene& s, const PictureLayout& plan, int raster_threads, gl::Provider provider,
+         std::shared_ptr<DrawingContext> kept)
         : scene(s),
           palette(palette_of(s.film)),
           layout(plan),
           port(layout.port),
           path(s, layout),
           overlay(scene, palette, layout, path.at(0)),
-          context(gl::make_context(provider, raster_threads)),
-          shape_painter(context->gl()),
-          behind(context->gl(), port),
-          before(context->gl(), port),
+          drawing(
+              current(kept ? std::move(kept) : std::make_shared<DrawingContext>(provider, raster_threads))),
+          context(*drawing->context),
+          behind(context.gl(), port),
+          before(context.gl(), port),
           team(raster_threads),
           shown(s, s.film.shows.hidden),
           solid(s, s.film.shows.ghosts),
@@ -65,10 +67,15 @@ struct Renderer::Impl {
         if (meshes.any()) mesh_light.emplace(port.width, port.height);
     }
 
+    static std::shared_ptr<DrawingContext> current(std::shared_ptr<DrawingContext> drawing) {
+        drawing->context->make_current();
+        return drawing;
+    }
+
     // The members that are deleted belong to the context, so the context must be current.
     ~Impl() {
         try {
-            context->make_current();
+            context.make_current();
         } catch (const RunError&) {
             // If no context is current, all that the context owns is deleted with the context itself.
         }
@@ -81,8 +88,8 @@ struct Renderer::Impl {
     const CameraPath path;
     Exaggeration exaggeration{scene.film.exaggerate};
     Overlay overlay;
-    std::unique_ptr<gl::Context> context;
-    ShapePainter shape_painter;
+    const std::shared_ptr<DrawingContext> drawing;
+    gl::Context& context;
     SideLayer behind, before;
     std::optional<SideLayer> marks_alone;  // used where grains hide parts of the walls in front
     // Pixels of `before` that draw_before() has changed, with the colours that they had.
@@ -133,8 +140,8 @@ struct Renderer::Impl {
 
 void Renderer::Impl::draw(const Shot& frame, const std::string& playback, double film_time, Picture& into,
                           DrawTimes* times, PdfPage* page) {
-    context->make_current();
-    DrawStopwatch watch(context->gl(), times);
+    context.make_current();
+    DrawStopwatch watch(context.gl(), times);
     const View view = path.at(film_time);
     if (!started) start_from(frame);
     if (page)
@@ -180,7 +187,7 @@ void Renderer::Impl::start_from(const Shot& frame) {
 void Renderer::Impl::point_out(PointedOut what) {
     point_forces = std::move(what.forces);
     if (what.grains.empty()) return;
-    context->make_current();
+    context.make_current();
     if (!ghost_painter) ghost_painter.emplace(scene, port.width, port.height, team, true);
     ghost_painter->paint_all_but(what.grains);
     solid = ShownGrains::only(scene, std::move(what.grains));
@@ -242,7 +249,7 @@ void Renderer::Impl::draw_moment(const Shot& true_frame, const Shot* marked, con
     watch.lap(&DrawTimes::walls);
     if (ground) ground->update(opaque, eye);
     watch.lap(&DrawTimes::shadow);
-    const Layer& walls_behind = behind.draw(shape_painter, shapes.behind.shapes);
+    const Layer& walls_behind = behind.draw(drawing->shape_painter, shapes.behind.shapes);
     watch.lap(&DrawTimes::walls);
     sphere_painter.take(eye, opaque);
     watch.lap(&DrawTimes::upload);
@@ -282,7 +289,7 @@ const Layer* Renderer::Impl::draw_before() {
     const std::vector<WallPixel>& pixels = sphere_painter.wall_pixels();
     const bool bared = std::any_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.bared > 0; });
     if (!bared) shapes.before.shapes.append(shapes.over);
-    before.draw(shape_painter, shapes.before.shapes);
+    before.draw(drawing->shape_painter, shapes.before.shapes);
     if (!bared) return nullptr;
     for (const WallPixel& pixel : pixels) {
         std::uint32_t& place = before.layer().row(pixel.y)[pixel.x];
@@ -290,8 +297,8 @@ const Layer* Renderer::Impl::draw_before() {
         place = faded(place, 1 - pixel.bared);
     }
     if (shapes.over.vertices().empty()) return nullptr;
-    if (!marks_alone) marks_alone.emplace(context->gl(), port);
-    return &marks_alone->draw(shape_painter, shapes.over);
+    if (!marks_alone) marks_alone.emplace(context.gl(), port);
+    return &marks_alone->draw(drawing->shape_painter, shapes.over);
 }
 
 void Renderer::Impl::draw_solid_meshes(const Shot& frame, DrawStopwatch& watch) {
@@ -333,11 +340,12 @@ const Layer& Renderer::Impl::draw_grains(SpherePainter& painter, DrawStopwatch& 
     return layer;
 }
 
-Renderer::Renderer(const FilmedScene& scene, int raster_threads, gl::Provider provider)
-    : Renderer(scene, plan_layout(scene), raster_threads, provider) {}
+Renderer::Renderer(const FilmedScene& scene, int raster_threads, gl::Provider provider,
+                   std::shared_ptr<DrawingContext> kept)
+    : Renderer(scene, plan_layout(scene), raster_threads, provider, std::move(kept)) {}
 Renderer::Renderer(const FilmedScene& scene, const PictureLayout& layout, int raster_threads,
-                   gl::Provider provider)
-    : impl_(std::make_unique<Impl>(scene, layout, raster_threads, provider)) {}
+                   gl::Provider provider, std::shared_ptr<DrawingContext> kept)
+    : impl_(std::make_unique<Impl>(scene, layout, raster_threads, provider, std::move(kept))) {}
 
 Renderer::~Renderer() = default;
 
@@ -391,12 +399,16 @@ void Renderer::remember(const Shot& frame) {
     impl_->marks.remember(impl_->to_be_marked(impl_->shown.of(impl_->exaggeration.shown(frame))));
 }
 
+std::shared_ptr<DrawingContext> Renderer::context() const {
+    return impl_->drawing;
+}
+
 std::string Renderer::gl_description() const {
-    return impl_->context->description();
+    return impl_->context.description();
 }
 
 std::string Renderer::gl_note() const {
-    return impl_->context->note();
+    return impl_->context.note();
 }
 
 }  // namespace grainreel

@@ -21,6 +21,7 @@
 namespace grainreel {
 
 class PdfPage;
+struct DrawingContext;  // render/picture/base/canvas.hpp
 
 // ms that the stages of a frame take. They are measured only on demand, because measuring waits for OpenGL
 // after each stage. occlusion: the search for neighbours that shade a grain; shading: all light on grains;
@@ -40,11 +41,13 @@ class Renderer {
   public:
     // Makes an off-screen OpenGL context that is current on the calling thread. Construct, use and destroy
     // the renderer on one thread. raster_threads: threads of the software rasteriser, >= 1. Throws RunError
-    // when there is no context.
-    Renderer(const FilmedScene& scene, int raster_threads, gl::Provider provider = gl::Provider::automatic);
+    // when there is no context. kept: the context of an earlier renderer on this thread, which is taken in
+    // place of a new one; the pictures are the same.
+    Renderer(const FilmedScene& scene, int raster_threads, gl::Provider provider = gl::Provider::automatic,
+             std::shared_ptr<DrawingContext> kept = nullptr);
     // Takes another layout than plan_layout() would give: bare_layout() leaves out all words.
-    Renderer(const FilmedScene& scene, const PictureLayout& layout, int raster_threads,
-             gl::Provider provider);
+    Renderer(const FilmedScene& scene, const PictureLayout& layout, int raster_threads, gl::Provider provider,
+             std::shared_ptr<DrawingContext> kept = nullptr);
     ~Renderer();
 
     // Draws a frame in the size of the scene's film. playback: the caption of time ("slow motion, 1/10
@@ -70,8 +73,9 @@ class Renderer {
     // grain. Empty when there is nothing to say.
     std::string last_note() const;
 
-    std::string gl_description() const;  // vendor, renderer and version of the context
-    std::string gl_note() const;         // why it is not the kind that one would expect; empty if it is
+    std::shared_ptr<DrawingContext> context() const;  // for a next renderer
+    std::string gl_description() const;               // vendor, renderer and version of the context
+    std::string gl_note() const;  // why it is not the kind that one would expect; empty if it is
 
     // Draws the same picture and tells what each of its stages cost.
     DrawTimes draw_timed(const Shot& frame, const std::string& playback);

@@ -191,15 +191,13 @@ namespace {
 
 // The words with the values of the frame's last row of measures.
 std::string text_now(const std::vector<LiveWords>& words, const Shot& frame) {
-    return live_text(words, [&](const std::string& name) -> std::optional<double> {
-        if (!frame.measures || frame.measure_rows == 0) return std::nullopt;
-        const std::size_t column = frame.measures->find(name).value();
-        return frame.measures->values(column, frame.measure_rows - 1, frame.measure_rows).front();
+    return live_text(words, [&](const LiveWords& part) {
+        return live_number(part, frame.measures.get(), frame.measure_rows);
     });
 }
 
 std::string longest_text(const std::vector<LiveWords>& words) {
-    return live_text(words, [](const std::string&) { return std::optional(-1.23e-4); });
+    return live_text(words, [](const LiveWords&) { return std::optional(-1.23e-4); });
 }
 
 }  // namespace

@@ -334,7 +334,7 @@ void write_shows(SceneText& out, const FilmedScene& scene) {
 std::vector<LiveWords> parts_of_text(const Document& document, const Scene& scene, const std::string& path,
                                      const std::string& text) {
     try {
-        return parse_live_text(text, scene.measurable.columns);
+        return parse_live_text(text, scene.measurable.columns, &scene);
     } catch (const UserError& error) {
         document.fail(path, error.what());
     }

@@ -163,6 +163,27 @@ TEST_F(ForeignAnswers, MistakesAreRefused) {
     expect_refused({"render", "bed.dump", "--walls", "no.stl"}, "no.stl");
 }
 
+// Grains as large as boulders are likely to be in mm; whoever says the units is not asked.
+TEST_F(ForeignAnswers, GrainsOfMetresAskForTheirUnits) {
+    write_text(here / "large.csv", "id,x,y,z,radius\n1,0,0,0,2\n2,0,5,0,2\n");
+    const auto told = [&](std::vector<std::string> words) {
+        const Ended ended = timed(std::move(words));
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        return ended.err;
+    };
+    EXPECT_THAT(told({"report", "large.csv"}), tells({"large.csv", "4 m large", "--units mm"}));
+    EXPECT_THAT(told({"report", "large.csv", "--units", "si"}), Not(HasSubstr("--units")));
+    EXPECT_THAT(told({"report", "large.csv", "--units", "mm"}), Not(HasSubstr("--units")));
+}
+
+// The log of a film says what was told while its files were read, and calls them as the user does.
+TEST_F(ForeignAnswers, TheLogOfAFilmSaysWhatWasGuessed) {
+    EXPECT_EQ(timed({"render", "bed.dump", "--size", "160x120", "--out", "film"}).status, 0);
+    const std::string log = text_of(here / "film/log.txt");
+    EXPECT_THAT(log, tells({"says no density", "frames of bed.dump"}));
+    EXPECT_THAT(log, Not(HasSubstr("imports/")));
+}
+
 // Without a density there are no masses. A condition that no grain meets for want of them would look like a
 // result.
 TEST_F(ForeignAnswers, QuestionsAboutMassesNeedADensity) {

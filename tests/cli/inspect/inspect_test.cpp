@@ -592,13 +592,17 @@ TEST_F(InspectedMoment, ColumnsOfTheWholeRunHaveMeans) {
     EXPECT_NEAR(mean[1][2].get<double>(), 0.075, 0.002);
     const auto slope = answer({"--measure", "time_s", "--slope", "..0.1s"})["tables"]["slope"]["rows"][0];
     EXPECT_NEAR(slope[2].get<double>(), 1, 1e-9) << "time passes one second a second";
-    EXPECT_FALSE(answer({"--parameters"})["tables"]["parameters"]["rows"].empty());
+    EXPECT_THAT(answer({"--parameters"})["tables"]["parameters"]["rows"].dump(),
+                tells({"[\"packing.settled\",\"0.", "run.step"}));
     EXPECT_THAT(refusal({"--window", "0s..1s"}), tells({"--window", "add --measure"}));
     EXPECT_THAT(refusal({"--measure", "kinetic"}), tells({"--measure", "'kinetic'"}));
     EXPECT_THAT(refusal({"--measure", "kinetic_J", "--window", "3s..4s"}), tells({"--measure", "no row"}));
     EXPECT_THAT(refusal({"--measure", "kinetic_J", "--slope", "1s"}), tells({"--slope", "two times"}));
     EXPECT_THAT(refusal({"--measure", "kinetic_J", "--at", "0.1 s"}), tells({"--measure", "whole run"}));
     EXPECT_THAT(refusal({"--discharge"}), tells({"--discharge", "outlet"}));
+    const std::string of_mean = refusal({"--where", "id > 0", "--over-time", "--mean", "sped"});
+    EXPECT_THAT(of_mean, tells({"--mean", "'sped'", "no quantity"}));
+    EXPECT_EQ(of_mean.find("--where"), std::string::npos) << of_mean;
     EXPECT_THAT(refusal({"--fields", "rz"}), tells({"--fields", "fields.nc"}));
 }
 

@@ -15,8 +15,8 @@
 #include "engine/base/text.hpp"
 #include "engine/measure/columns.hpp"
 #include "engine/scene/keys/keys.hpp"
-#include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
+#include "render/app/study/file/study_files.hpp"
 #include "render/app/study/file/variations.hpp"
 #include "render/scene/filmed_scene.hpp"
 #include "render/scene/live_text.hpp"
@@ -132,11 +132,6 @@ void read_measure(Document& document, const FilmedScene& scene, const std::strin
 
 // Reads which charts a study draws, [[chart]].
 
-// The path of a file that is given relative to the study's folder.
-std::filesystem::path beside_study(const Study& study, const std::string& path) {
-    return (study.file.parent_path() / path).lexically_normal();
-}
-
 std::size_t index_of_measure(const Document& document, const Study& study, const std::string& path,
                              const std::string& name) {
     std::vector<std::string> names;
@@ -184,8 +179,10 @@ void read_reference(Document& document, const Study& study, const std::string& t
     if (!study.variations[chart.x].numeric)
         document.fail(table + ".reference",
                       "needs an x axis of numbers; vary a key that has them, or remove it");
-    chart.reference = beside_study(study, *file);
-    if (!std::filesystem::is_regular_file(*chart.reference))
+    const NamedText table_of_points = file_of_study(study, *file);
+    chart.reference = table_of_points.file;
+    chart.reference_text = table_of_points.text;
+    if (chart.reference->empty())
         document.fail(table + ".reference",
                       fmt::format("is \"{}\", but there is no such file; its path counts from "
                                   "the study's folder",
@@ -306,11 +303,6 @@ FilmedScene longest_scene(const Study& study) {
 
 namespace {
 
-void check_is_there(const std::filesystem::path& file) {
-    if (!is_there(file))
-        throw UserError("{}: there is no such file; give the path of a study (.toml)", file.string());
-}
-
 // Refuses a scene, in which nothing is varied.
 void check_no_scene(const Document& document, const std::filesystem::path& file) {
     if (document.has("scene") ||
@@ -322,13 +314,14 @@ void check_no_scene(const Document& document, const std::filesystem::path& file)
 
 void read_scene_of(Document& document, Study& study) {
     const std::string name = document.required_text("scene");
-    study.scene = beside_study(study, name);
-    if (!is_there(study.scene))
+    const NamedText scene = file_of_study(study, name);
+    if (scene.file.empty())
         document.fail("scene",
                       fmt::format("is \"{}\", but there is no such file; its path counts from the study's "
                                   "folder",
                                   excerpt(name)));
-    study.scene_text = load_scene_file(study.scene);
+    study.scene = scene.file;
+    study.scene_text = scene.text;
 }
 
 // Finds the measure that `until` names, and the wanted value: "angle = 24".
@@ -364,13 +357,11 @@ void complete_search(Study& study) {
 
 Study read_study(const std::filesystem::path& file) {
     Study study;
-    study.file = file;
-    check_is_there(file);
-    study.text = load_scene_file(file);
-    Document document(study.text, file.string(), study_keys());
-    check_no_scene(document, file);
+    read_study_text(file, study);
+    Document document(study.text, study.file.string(), study_keys());
+    check_no_scene(document, study.file);
     document.check_keys();
-    study.title = document.text("title").value_or(file.stem().string());
+    study.title = document.text("title").value_or(study.file.stem().string());
     read_scene_of(document, study);
     const std::vector<std::string> sets = document.name_list("set");
     for (std::size_t i = 0; i < sets.size(); ++i)
@@ -382,7 +373,7 @@ Study read_study(const std::filesystem::path& file) {
         read_variation(document, fmt::format("vary[{}]", i), study);
     if (study.variations.empty() && study.seeds.empty())
         throw UserError("{}:1:1: varies nothing; write [[vary]] with a key and its values, or seeds = 3",
-                        file.string());
+                        study.file.string());
     const FilmedScene scene = longest_scene(study);
     for (std::size_t i = 0; i < document.size("measure"); ++i)
         read_measure(document, scene, fmt::format("measure[{}]", i), study);

@@ -6,7 +6,6 @@
 
 #include "engine/base/plain_file.hpp"
 #include "engine/files/run_folder.hpp"
-#include "engine/scene/scene_file.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "render/app/study/results/drawing.hpp"
 
@@ -89,9 +88,8 @@ void write_study_copy(const Study& study, const std::vector<Member>& members, co
     std::error_code ignored;
     for (const StudyChart& chart : study.charts) {
         if (!chart.reference) continue;
-        const std::string points = load_scene_file(*chart.reference);
         fs::create_directories(folder.path / "references", ignored);
-        replace_file(folder.path / reference_of(chart), points);
+        replace_file(folder.path / reference_of(chart), chart.reference_text);
     }
     replace_file(scene, study.scene_text);
     copy_files(study, members, folder);

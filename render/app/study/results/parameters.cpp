@@ -48,10 +48,10 @@ class ParameterTable {
     }
     // A value for each setting.
     void differing(const std::string& key, const std::string& unit, const Cells& row,
-                   const Key* known = nullptr) {
+                   const Key* known = nullptr, const std::string& meaning = "") {
         text_ += fmt::format("{},{},", csv_cell(key), csv_cell(unit));
         for (const std::string& value : row) text_ += "," + csv_cell(value);
-        text_ += fmt::format(",{}\n", csv_cell(meaning_of(known)));
+        text_ += fmt::format(",{}\n", csv_cell(meaning.empty() ? meaning_of(known) : meaning));
     }
     void row(const std::string& key, const Cells& row, const Key* known) {
         const bool same =
@@ -125,15 +125,31 @@ void add_what_was_varied(const Study& study, std::size_t settings, ParameterTabl
     if (study.has_seeds()) table.row("run.seed", seeds, nullptr);
 }
 
+// For how long the beds settled, of each seed of a setting that has run.
+void add_settling(std::size_t settings, const std::vector<Member>& members,
+                  const std::vector<MemberResult>& results, ParameterTable& table) {
+    Cells settled(settings);
+    for (std::size_t i = 0; i < members.size() && i < results.size(); ++i) {
+        if (members[i].setting >= settings || !results[i].settled) continue;
+        std::string& cell = settled[members[i].setting];
+        cell += fmt::format("{}{:.6g}", cell.empty() ? "" : ", ", *results[i].settled);
+    }
+    if (std::all_of(settled.begin(), settled.end(), [](const auto& cell) { return cell.empty(); })) return;
+    table.differing("packing.settled", "s", settled, nullptr,
+                    "Simulated time for which the bed settled before the drive, of each seed");
+}
+
 }  // namespace
 
-std::string StudyParameters::table(const Study& study) const {
+std::string StudyParameters::table(const Study& study, const std::vector<Member>& members,
+                                   const std::vector<MemberResult>& results) const {
     const ProgramInfo program = program_info();
     ParameterTable table(settings_.size());
     add_what_was_varied(study, settings_.size(), table);
     table.constant("program.version", program.version);
     table.constant("program.commit", program.commit);
     table.constant("program.compiler", program.compiler);
+    add_settling(settings_.size(), members, results, table);
     std::vector<std::string> keys;  // in the order of their first setting
     std::map<std::string, Cells> values;
     std::map<std::string, const Key*> known;

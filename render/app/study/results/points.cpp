@@ -11,7 +11,6 @@
 #include "engine/base/lists.hpp"
 #include "engine/base/number_text.hpp"
 #include "engine/base/text.hpp"
-#include "engine/scene/scene_file.hpp"
 
 namespace grainreel {
 
@@ -76,8 +75,9 @@ std::string y_title(const Study& study, const StudyChart& chart) {
     return axis_title(said ? measure.label : measure.label + ", median", unit_of_y(study, chart).unit);
 }
 
-std::vector<ReferencePoint> read_reference(const std::filesystem::path& file) {
-    std::istringstream text(load_scene_file(file));
+std::vector<ReferencePoint> read_reference(const std::string& points_text,
+                                           const std::filesystem::path& file) {
+    std::istringstream text(points_text);
     CsvRows rows(text, file, {.remarks = "#"});
     std::vector<ReferencePoint> points;
     const auto fail = [&](std::size_t column, const std::string& what) {

@@ -26,6 +26,7 @@ std::int64_t read_record(const std::filesystem::path& path, MemberResult& result
     result.error = read.record.error;
     result.warnings = read.record.warnings;
     result.simulated = read.record.simulated;
+    result.settled = read.record.settled;
     result.particle_steps_per_second = read.record.particle_steps_per_second;
     result.has_film = read.record.film_frames.value_or(0) > 0;
     return read.record.steps_planned;

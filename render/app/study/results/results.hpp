@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +34,8 @@ struct MemberResult {
     // The same for first passages that did not come up: the time (s) until which they were looked for. Empty
     // for none.
     std::vector<double> until;
-    double simulated = 0;  // s
+    double simulated = 0;           // s
+    std::optional<double> settled;  // s for which its bed settled before the drive
     double particle_steps_per_second = 0;
     bool has_film = false;
 

@@ -134,15 +134,23 @@ def species_of(trajectory: xarray.Dataset) -> List[str]:
 
 
 def read_trajectory(file: Path) -> xarray.Dataset:
-    """trajectory.nc, with x, y, z, the species' names, and `time` as a second index of the frames."""
+    """trajectory.nc, with x, y, z, the species' names, and `time` as a second index of the frames. A place (`atom`) has
+    the same grain in all frames (engine/files/trajectory/trajectory.hpp), so `id` is an index of the places."""
     data = with_parts(read_netcdf(file, "output.trajectory = true"))
+    some = data.sizes.get("frame", 0) > 0
     if "type" in data.variables:
-        lazy = indexing.LazilyIndexedArray(  # type: ignore[no-untyped-call]
-            _Names(data.variables["type"], species_of(data)))
-        data["species"] = (data.variables["type"].dims, lazy, {"long_name": "name of the grain's species"})
+        types = data.variables["type"]
+        if some:
+            types = types.isel(frame=-1)
+        lazy = indexing.LazilyIndexedArray(_Names(types, species_of(data)))  # type: ignore[no-untyped-call]
+        data = data.assign_coords(species=(types.dims, lazy, {"long_name": "name of the grain's species"}))
     if "id" in data.variables:
+        if some:
+            data["id"] = data.variables["id"].isel(frame=-1)
         data = data.set_coords("id")
-    if "time" in data.coords and data.sizes.get("frame", 0) > 0:
+        if some and len(numpy.unique(data.id.values)) == data.sizes["atom"]:
+            data = data.set_xindex("id")
+    if "time" in data.coords and some:
         data = data.set_xindex("time")
     return data
 
@@ -190,7 +198,8 @@ def _rows(trajectory: xarray.Dataset, number: int) -> xarray.Dataset:
         return frame.isel(atom=places).set_coords([name for name in ("species",) if name in frame.variables])
     ids = frame.variables["id"].values[places]
     frame = frame.isel(atom=places[numpy.argsort(ids, kind="stable")])
-    return frame.set_coords([name for name in ("id", "species") if name in frame.variables]).set_xindex("id")
+    frame = frame.set_coords([name for name in ("id", "species") if name in frame.variables])
+    return frame if "id" in frame.xindexes else frame.set_xindex("id")
 
 
 def table_of_grains(trajectory: xarray.Dataset, weighed: bool = True) -> Any:

@@ -54,6 +54,7 @@ _ARGUMENTS = {"force": "force=True", "no-film": "film=False", "no-report": "repo
 def in_python(text: str, verb: str = "") -> str:
     """The program's message with arguments in place of options: "--time-step 1us" is time_step="1us"."""
     text = re.sub(r"--set ([\w.]+)", r"\1", text)
+    text = re.sub(r"--units mm\b", 'units="mm"', text)
     text = re.sub(r"see \S*grainreel (\w+) --help", r"see help(grainreel.\1)", text)
 
     def argument(match: re.Match[str]) -> str:

@@ -221,7 +221,9 @@ def question(moment: Mapping[str, object], size: object, colour: object, setting
         asked["at"] = seconds_of(at, "at")
     if frame is not None:
         asked["frame"] = whole_of(frame, "frame")
-    if colour is not None:
+    if isinstance(colour, str):
+        coloured_by(colour, settings)
+    elif colour is not None:
         asked["colour"] = colours(colour, settings)
     words = settings_of({f"film.{key}": value for key, value in settings.items()}, more)
     if size is not None:
@@ -229,6 +231,13 @@ def question(moment: Mapping[str, object], size: object, colour: object, setting
     if words:
         asked["set"] = words
     return asked
+
+
+def coloured_by(quantity: str, settings: Dict[str, object]) -> None:
+    """Adds a quantity of the program to the settings of a picture or a film."""
+    if "colour__by" in settings:
+        raise GrainreelError("colour__by: colour already says what the grains are coloured by; leave one of them out")
+    settings["colour__by"] = quantity
 
 
 def colours(values: object, settings: Dict[str, object]) -> Dict[str, Any]:

@@ -123,12 +123,21 @@ class Study(Placed):
     @property
     def table(self) -> Any:
         """study.csv as a data frame of pandas: a row for each member, with its values, its seed and its measures."""
+        return self._csv("study.csv")
+
+    @property
+    def settings(self) -> Any:
+        """settings.csv as a data frame of pandas: a row for each setting, with the mean of each measure over its seeds,
+        the ends of its 95 % interval, and in how many members it came up."""
+        return self._csv("settings.csv")
+
+    def _csv(self, name: str) -> Any:
         import pandas
 
         try:
-            return pandas.read_csv(self.path / "study.csv")
+            return pandas.read_csv(self.path / name)
         except (OSError, ValueError) as error:
-            raise GrainreelError(f"{self.path / 'study.csv'}: cannot be read: {error}") from None
+            raise GrainreelError(f"{self.path / name}: cannot be read: {error}") from None
 
     @property
     def members(self) -> List["Run"]:

@@ -211,7 +211,8 @@ class Run(Placed):
     @property
     def trajectory(self) -> xarray.Dataset:
         """trajectory.nc: place, velocity and size of each grain (`atom`) at each kept moment (`frame`). `time` is a second
-        index of the frames, `sel(time=0.1, method="nearest")`; `species` has the names."""
+        index of the frames, `sel(time=0.1, method="nearest")`; `species` has the names. A grain has the same place in
+        all frames, so `id` is an index too: `run.trajectory.sel(id=12).z`."""
         return self._once("trajectory", lambda: _data.read_trajectory(self._folder / "trajectory.nc"))
 
     @property

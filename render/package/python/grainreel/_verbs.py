@@ -6,19 +6,19 @@ import json
 import os
 import re
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, ValuesView
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Union
 
 from ._data import read_record
 from ._messages import GrainreelError, tell, wrong
-from ._pictures import Picture, painter_of, question
+from ._pictures import Picture, coloured_by, painter_of, question
 from ._program import Running, call, program_of
 from ._results import Answer, Comparison, Film, Study
 from ._scenes import SceneFile
 from ._words import Path as PathLike
-from ._words import (Progress, Time, exclusive, options, path_of, reading_words, sets, size_of, text_of, time_of,
-                     whole_of, whole_or_none)
+from ._words import (Progress, Time, columns_of, exclusive, options, path_of, reading_words, sets, size_of, text_of, time_of,
+                     whole_of, whole_or_none, window_of)
 
 if TYPE_CHECKING:
     from ._run import Run
@@ -98,8 +98,8 @@ def render(run: Union[PathLike, "Run"], file: Optional[PathLike] = None, *, at: 
     - `at`: s; `frame`: number of a frame of the film, from 0 or from its end (-1), of a run that was made with `film=True`;
       `cycle`: periods of the drive, and `phase`, from 0 to 1 of the next one. None of them: the last moment.
     - `size`: "640x480" or (640, 480).
-    - `colour`: a number for each grain by which they are coloured, in the order of ids, or with the ids as the
-      coordinate or the index `id`, as arrays of `run[-1]` have them. `colour__range=(0, 2)`, `colour__map="vik"`,
+    - `colour`: a quantity by which grains are coloured, as "speed" (`colour__by` is the same); or a number for each
+      grain, in the order of ids, or with the ids as the coordinate or the index `id`, as arrays of `run[-1]` have them. `colour__range=(0, 2)`, `colour__map="vik"`,
       `colour__scale="logarithmic"` and `colour__title="age (s)"` belong to it.
     - `reading`: a dict, what files of other programs do not say, see `open`.
     - `settings`: keys of [film], as in `colour__by="speed"`; `set={"film.colour.by": "speed"}` is the same.
@@ -121,13 +121,14 @@ def render(run: Union[PathLike, "Run"], file: Optional[PathLike] = None, *, at: 
 
 def film(run: Union[PathLike, "Run"], out: Optional[PathLike] = None, *, force: bool = False, size: Any = None,
          fps: Optional[float] = None, format: Optional[str] = None, title: Optional[str] = None,
-         start: Optional[Time] = None, end: Optional[Time] = None, every: Optional[int] = None, replay: bool = True,
-         threads: Optional[int] = None, progress: Progress = None, program: Optional[PathLike] = None,
-         reading: Settings = None, set: Settings = None, **settings: Any) -> Film:
+         start: Optional[Time] = None, end: Optional[Time] = None, every: Optional[int] = None,
+         colour: Optional[str] = None, replay: bool = True, threads: Optional[int] = None, progress: Progress = None,
+         program: Optional[PathLike] = None, reading: Settings = None, set: Settings = None, **settings: Any) -> Film:
     """A film of a finished run, or of another program's files. Without further arguments it is the one that the run
     has, if it has one; else it is drawn.
 
     - `start`, `end`: s, the first and the last moment. `every`: draws each such frame of the trajectory.
+    - `colour`: a quantity, as "speed".
     - `out`: the folder of the film, which must be new, or `force=True`; else one beside the run is chosen, and a film
       there that was drawn of the same files with the same arguments is taken.
     - `replay=False`: only kept moments.
@@ -135,6 +136,8 @@ def film(run: Union[PathLike, "Run"], out: Optional[PathLike] = None, *, force: 
     """
     _check_progress(progress)
     path = path_of(run, "run")
+    if colour is not None:
+        coloured_by(text_of(colour, "colour"), settings)
     wanted = options(out=out, force=bool(force) and out is not None, fps=fps, format=format, title=title, every=every,
                      size=None if size is None else size_of(size), no_replay=not replay, threads=threads)
     wanted += _between(start, end, "to") + sets({f"film__{key}": each for key, each in settings.items()}, set)
@@ -155,15 +158,21 @@ def inspect(run: Union[PathLike, "Run"], where: Optional[str] = None, *, at: Opt
             average: Optional[float] = None, grain: Optional[int] = None, wall: Optional[str] = None,
             largest_overlap: bool = False, profile: Optional[str] = None, slice: Optional[str] = None,
             histogram: Optional[str] = None, bins: Optional[int] = None, pair_distribution: bool = False,
-            compare: Optional[Time] = None, steady: Optional[str] = None, over_time: bool = False,
-            every: Optional[Time] = None, mean: Optional[str] = None, limit: Optional[int] = None, replay: bool = True,
-            progress: Progress = None, program: Optional[PathLike] = None, reading: Settings = None) -> Answer:
+            compare: Optional[Time] = None, steady: Optional[str] = None,
+            measure: Union[str, Sequence[str], None] = None, fields: Optional[str] = None, discharge: bool = False,
+            parameters: bool = False, over_time: bool = False, every: Optional[Time] = None, mean: Optional[str] = None,
+            window: Any = None, slope: Any = None, by: Optional[str] = None, limit: Optional[int] = None,
+            replay: bool = True, progress: Progress = None, program: Optional[PathLike] = None,
+            reading: Settings = None) -> Answer:
     """What is there at a moment: at (s), frame (of the film) or cycle (periods of the drive); neither: the last one.
 
     - One question: `grain` (its id), `wall` (its name), `largest_overlap`, `where` (a condition, as "species == big and
       height > 2 cm"), `profile` (a direction), `slice` (a plane, as "y=0"), `histogram` (a quantity),
-      `pair_distribution`, `compare` (another time), `steady` (a column of measures). Without one: an overview.
-    - `over_time`, `every`, `mean` belong to `where`, `bins` to `histogram`, `phase` to `cycle`.
+      `pair_distribution`, `compare` (another time). Without one: an overview.
+    - Of the whole run: `measure` (columns of measures: mean, deviation, interval), `steady` (such a column),
+      `discharge`, `fields` ("kept" or "rz": their means), `parameters`.
+    - `over_time`, `every`, `mean` belong to `where`, `bins` to `histogram`, `phase` to `cycle`; `window=(0.2, 0.8)` (s,
+      None for an open end), `slope=(0.2, 0.8)` and `by="period"` to `measure`, `window` to `fields` too.
     - `average`: means over so many periods. `limit`: most grains in a list. `replay=False`: only kept moments.
 
     docs/guide/inspect.md tells more.
@@ -173,7 +182,10 @@ def inspect(run: Union[PathLike, "Run"], where: Optional[str] = None, *, at: Opt
                      grain=whole_or_none(grain, "grain"), wall=wall, largest_overlap=largest_overlap,
                      where=_condition(where), profile=profile, slice=slice, histogram=histogram,
                      bins=whole_or_none(bins, "bins"), pair_distribution=pair_distribution,
-                     compare=time_of(compare, "compare"), steady=steady, over_time=over_time,
+                     compare=time_of(compare, "compare"), steady=steady, fields=fields, discharge=discharge,
+                     measure=columns_of(measure, "measure"),
+                     window=window_of(window, "window"), slope=window_of(slope, "slope"), by=by,
+                     parameters=parameters, over_time=over_time,
                      every=time_of(every, "every"), mean=mean, limit=whole_or_none(limit, "limit"), no_replay=not replay)
     words += reading_words(_reading(run, reading))
     return Answer(json.loads(call("inspect", words, _program(run, program), progress)))
@@ -208,6 +220,7 @@ def report(runs: Any, out: Optional[PathLike] = None, *, progress: Progress = No
            reading: Settings = None) -> Path:
     """The page of a run, or of several runs side by side: film, charts and the bed in three dimensions. It gives the
     file, report.html in the run's folder; of several runs side_by_side.html."""
+    runs = _listed(runs)
     first = runs[0] if isinstance(runs, (list, tuple)) and runs else runs
     words = _paths(runs) + options(out=out) + reading_words(_reading(first, reading))
     return Path(call("report", words, _program(first, program), progress).strip())
@@ -219,15 +232,17 @@ def compare(runs: Any, *more: Union[PathLike, "Run"], out: Optional[PathLike] = 
             cache: bool = True, threads: Optional[int] = None, replay: bool = True, progress: Progress = None,
             program: Optional[PathLike] = None, reading: Settings = None, set: Settings = None,
             **settings: Any) -> Comparison:
-    """Runs side by side, in step: two to six runs, scenes or files of other programs, as a list or one after
-    another; or one scene with `vary={"drive.g_level": [2, 4]}`.
+    """Runs side by side, in step: two to six runs, scenes or files of other programs, as a list, one after another,
+    or as a dict with their captions, {"weak": run, "strong": other}; or one scene with
+    `vary={"drive.g_level": [2, 4]}`.
 
     - `captions`: one for each. `at`: s, one picture in place of a film.
     - `settings`, `set`: keys that every scene gets. The rest: see `start` and `film`.
     """
     _check_progress(progress)
-    if more:
-        runs = [runs, *more]
+    if isinstance(runs, Mapping) and captions is None:
+        captions = [text_of(each, "a caption") for each in runs]
+    runs = [runs, *more] if more else _listed(runs)
     given = _paths(runs)
     words: List[str] = given + options(
         out=out, force=bool(force) and out is not None, vary=_vary(vary), fps=fps, format=format, title=title,
@@ -303,6 +318,13 @@ def _reading(run: object, reading: Settings) -> Dict[str, Any]:
 
 def _program(run: object, program: object) -> object:
     return program or getattr(run, "_program", None)
+
+
+def _listed(runs: Any) -> Any:
+    """A list of what a dict or another collection holds."""
+    if isinstance(runs, Mapping):
+        return list(runs.values())
+    return list(runs) if isinstance(runs, (ValuesView, Iterator)) else runs
 
 
 def _paths(runs: object) -> List[str]:

@@ -94,6 +94,25 @@ def time_of(value: object, what: str) -> Optional[str]:
     return None if value is None else f"{seconds_of(value, what)!r} s"
 
 
+def columns_of(value: object, what: str) -> Optional[str]:
+    """Names with commas between them, of a name or a list of names; None gives None."""
+    if value is None or isinstance(value, str):
+        return None if value is None else text_of(value, what)
+    if not isinstance(value, (list, tuple)) or not value:
+        raise wrong(what, "a name or a list of names", value)
+    return ",".join(text_of(each, what) for each in value)
+
+
+def window_of(value: object, what: str) -> Optional[str]:
+    """Two times as the program has them, "0.2s..0.8s"; text stays, None gives None."""
+    if value is None or isinstance(value, str):
+        return None if value is None else text_of(value, what)
+    ends = [value.start, value.stop] if isinstance(value, slice) else list(value) if isinstance(value, (list, tuple)) else []
+    if len(ends) != 2:
+        raise wrong(what, 'two times, as in (0.2, 0.8), with None for an open end', value)
+    return "..".join("" if end is None else f"{seconds_of(end, what)!r}s" for end in ends)
+
+
 def size_of(value: object) -> str:
     """"640x480" of (640, 480)."""
     if isinstance(value, str):
