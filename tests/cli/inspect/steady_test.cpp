@@ -123,6 +123,17 @@ TEST(Steady, OfAConstantAndOfTooFewRows) {
     EXPECT_EQ(of(100, 0.01, 0, [](double, std::size_t) { return std::nan(""); }).batches, 0u);
 }
 
+// A slow wave under noise ten times as large: the rows are worth hundreds of independent values, but the
+// means of batches follow the wave.
+TEST(Steady, NotWhereMeansOfBatchesHangTogether) {
+    const Steadiness found = of(2000, 0.01, 0, [](double t, std::size_t i) {
+        return std::sin(2 * std::numbers::pi * t / 8) + 10 * noise(i);
+    });
+    EXPECT_EQ(found.verdict, Verdict::too_short);
+    EXPECT_GT(found.independent, kLeastIndependent);
+    EXPECT_GT(found.correlation, 0.5);
+}
+
 // Equal values hang together, and still nothing is unknown about their mean.
 TEST(Steady, OfAConstantThatIsNoShortNumber) {
     const Steadiness constant = of(200, 0.01, 0, [](double, std::size_t) { return 0.1; });
