@@ -76,7 +76,7 @@ double Observers::look(const ObservedState& moment, const ShowContacts& show_con
     std::size_t index = 0;
     const auto gives_it = [&](const Entry& entry) {
         const std::optional<std::size_t> place = place_in(entry.columns, column);
-        index = place.value_or(0);
+        if (place) index = *place;
         return place.has_value();
     };
     visit(moment, show_contacts, gives_it, [&](Entry& entry) { entry.observer->look(moment, row); });
