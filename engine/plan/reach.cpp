@@ -18,7 +18,7 @@ namespace grainreel {
 namespace {
 
 constexpr double loose_fraction = 0.55;  // solid share of a bed between near walls
-constexpr double thrown_faster = 1.6;    // speed of the highest grains divided by that of the plate
+constexpr double thrown_faster = 1.6;    // speed of a deep bed's highest grains divided by the plate's
 constexpr double upright = 0.95;         // cosine of the largest angle between gravity and -z
 
 bool has_a_bed(const Scene& scene) {
@@ -30,6 +30,17 @@ bool has_a_bed(const Scene& scene) {
            -scene.gravity.z() >= upright * gravity;
 }
 
+// Speed of the highest grains divided by that of the plate; the header says where this comes from.
+double throw_factor(const Scene& scene) {
+    constexpr double scale = 1.8, lost_to_friction = 0.7;
+    double e = 0;
+    for (const auto* pairs : {&scene.contact.grain, &scene.contact.wall})
+        for (const PairContact& pair : *pairs) e = std::max(e, pair.restitution);
+    const double layers =
+        std::max(1.0, fill_height(scene, loose_fraction) / std::max(1e-30, mean_diameter(scene)));
+    return std::max(thrown_faster, scale * (1 + e) / std::sqrt(layers * (1 - e * e + lost_to_friction)));
+}
+
 // How far (m) a drive throws the bed above its place at rest.
 double throw_height(const Scene& scene) {
     const Drive& drive = scene.drive;
@@ -37,7 +48,7 @@ double throw_height(const Scene& scene) {
     const DrivePeaks peaks = drive_peaks(drive);
     const double gravity = scene.gravity.norm(), stroke = peaks.offset * std::abs(drive.direction.z());
     if (peaks.acceleration <= gravity) return stroke;
-    const double speed = thrown_faster * peaks.speed;
+    const double speed = throw_factor(scene) * peaks.speed;
     return stroke + speed * speed / (2 * gravity);
 }
 

@@ -9,6 +9,7 @@
 #include "engine/measure/columns.hpp"
 #include "render/picture/plots/plot.hpp"
 #include "render/picture/words/blocks.hpp"
+#include "render/picture/words/gutter_ways.hpp"
 #include "render/picture/words/layout.hpp"
 #include "render/scene/film_pace.hpp"
 #include "render/scene/filmed_scene.hpp"
@@ -240,6 +241,27 @@ TEST(Layout, TheCaptionOfTimeHasAllItsLines) {
             }
             EXPECT_EQ(plan.plots.size(), plots) << width << "x" << height;
         }
+}
+
+// In a column without free height, the words of the first gutter make room for those about time.
+TEST(Layout, AFullColumnKeepsTheLinesAboutTime) {
+    int full = 0;
+    for (int height = 300; height <= 700; height += 20) {
+        FilmedScene scene = scene_of(480, height, {0, 3, true});
+        scene.film.segments.resize(1);
+        scene.film.segments[0].kind = FilmSegment::Kind::locked;
+        scene.film.segments[0].average = 2;
+        PictureLayout empty = bare_layout(scene.film);
+        empty.type = type_scale(scene.film);
+        const Writer measure{nullptr, empty.type, make_palette({1, 1, 1})};
+        for (const PictureLayout& layout : laid_out(scene, empty, measure, GutterPlace::column)) {
+            const NumbersPlan free = plan_numbers(measure, scene, layout.first.width, height, false, true);
+            full += layout.first.height + free.height + layout.type.margin > height - 4;
+            EXPECT_EQ(plan_numbers(measure, scene, layout).caption_lines, free.caption_lines)
+                << height << ", column of " << layout.first.width;
+        }
+    }
+    EXPECT_GT(full, 0);
 }
 
 // Films with other titles and other species have one layout where they ask for the same gutters.

@@ -208,9 +208,11 @@ PictureLayout one_column(const FilmedScene& scene, PictureLayout layout, const W
                               least_width(scene, scene.film.gutters.first));
     const FirstPart part = first_part(measure, scene, nullptr, layout, left);
     const NumbersPlan numbers = plan_numbers(measure, scene, left, height, false, true);
-    const double most = height - (numbers.empty ? 0 : numbers.height);
+    // What is written about time keeps its lines and its margin, and a pixel for rounding.
+    const double most = std::floor(height - (numbers.empty ? 0 : numbers.height + margin + 1));
     // Where no height is left, all words of the first gutter are left out.
-    const int top = part.empty() ? 0 : std::max(1, whole(std::min(most, part.height + margin)));
+    const int top =
+        part.empty() ? 0 : std::max(1, std::min(static_cast<int>(most), whole(part.height + margin)));
     layout.first = top > 0 ? Rectangle{0, 0, left, numbers.empty ? height : top} : Rectangle();
     layout.second = numbers.empty ? Rectangle() : Rectangle{0, top, left, height - top};
     layout.port = {left, 0, width - left, height};
