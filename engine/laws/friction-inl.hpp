@@ -9,7 +9,7 @@
 
 #include "engine/laws/touch-inl.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/vector/lanes-inl.hpp"
+#include "engine/vector/number-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {

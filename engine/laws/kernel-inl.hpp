@@ -1,5 +1,4 @@
 // Turns a law into a LawKernel: the functions over a chunk of contacts that the step loop and observers call.
-// The step itself is step_chunk() in contact_law-inl.hpp.
 #if defined(GRAINREEL_LAWS_KERNEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_LAWS_KERNEL_INL
 #undef GRAINREEL_LAWS_KERNEL_INL
@@ -7,11 +6,42 @@
 #define GRAINREEL_LAWS_KERNEL_INL
 #endif
 
+#include "engine/laws/chunk-inl.hpp"
 #include "engine/laws/contact_law-inl.hpp"
 #include "engine/vector/twice-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
+
+// Runs a law over a chunk of contacts, as many at once as a register holds. It reads the chunk's rows
+// (law_kernel.hpp) and the histories, and writes the force and the new history of each contact. With
+// `one_kind`, all contacts have the parameters of the first.
+template <class Law, class L, bool one_kind>
+void step_chunk(const LawInput& in, void* histories, ForceChunk& out) {
+    using Number = NumberOf<L>;
+    auto* history = static_cast<Number*>(histories);
+    typename Law::template Parameters<L> p;
+    if constexpr (one_kind)
+        p.each(SameParameters<L>(*in.parameters, in.parameters->kinds == 1 ? 0 : in.kind[0]));
+    const L step(in.step), ahead(in.ahead);
+    for (int c = 0; c < in.count; c += L::count) {
+        in.touch->fetch_some();
+        Number* kept = history + place_in_history(c, in.history_stride);
+        if (!in.touch->any_touching(c, L::count)) {
+            put_nothing<Law, L>(c, out);
+            for (int k = 0; k < in.history_stride; ++k) store(L(0.0), kept + k * kBlock);
+            continue;
+        }
+        const auto touching = touching_at<L, Number>(in, c);
+        if constexpr (!one_kind) p = parameters_at<Law, L>(in, c);
+        typename Law::template History<L> h;
+        h.each(LoadHistory<L>(kept));
+        const auto force = Law::force(p, h, touch_at<Law, L, Number>(in, c),
+                                      velocity_at<Law, L, Number>(in, c), step, ahead);
+        h.each(StoreHistory<L>(touching, kept));
+        put_force<Law, L, Number>(touching, force, c, out);
+    }
+}
 
 template <class L>
 HWY_INLINE void put_energies(typename L::Mask touching, const ContactEnergies<L>& e, int c,

@@ -13,11 +13,11 @@
 #define GRAINREEL_LAWS_SOFTNESS_INL
 #endif
 
-#include <algorithm>
 #include <bit>
+#include <cstdint>
 
 #include "engine/base/mathematics.hpp"
-#include "engine/vector/twice-inl.hpp"
+#include "engine/vector/number-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -32,16 +32,6 @@ HWY_INLINE std::uint32_t inverse_cube_root_bits(float) {
 }
 
 // First guess of x^(-1/3). Shifts divide the bits of x by three, near enough for a guess.
-template <class D>
-HWY_INLINE LanesOf<D> guess_inverse_cube_root(LanesOf<D> x) {
-    const hn::RebindToUnsigned<D> bits;
-    const auto b = hn::BitCast(bits, x.value);
-    auto third = hn::ShiftRight<2>(b);
-    third = hn::Add(third, hn::ShiftRight<2>(third));
-    third = hn::Add(third, hn::ShiftRight<4>(third));
-    third = hn::Add(third, hn::ShiftRight<8>(third));
-    return hn::BitCast(D(), hn::Sub(hn::Set(bits, inverse_cube_root_bits(hn::TFromD<D>())), third));
-}
 template <std::floating_point T>
 HWY_INLINE T guess_inverse_cube_root(T x) {
     const auto of_one_third = inverse_cube_root_bits(T());
@@ -83,22 +73,14 @@ HWY_INLINE R quadratic_root(R a, R b) {
 // For any gamma: one step of Newton's method from u = a, because a power costs as much as the rest of the
 // law. It is of second order too.
 template <std::floating_point T>
-HWY_INLINE T any_root(T a, T b, T gamma) {
+HWY_INLINE T any_root([[maybe_unused]] T a, [[maybe_unused]] T b, [[maybe_unused]] T gamma) {
+#ifdef GRAINREEL_CARD
+    return __builtin_nan("");  // such exponents are refused (engine/card/refusal.hpp)
+#else
     const T alone = static_cast<T>(math::pow(a, gamma));
-    return std::min(alone / (1 + gamma * b * alone / a), a / std::max(b, static_cast<T>(1e-9)));
+    return smaller(alone / (1 + gamma * b * alone / a), a / larger(b, static_cast<T>(1e-9)));
+#endif
 }
-template <class D>
-HWY_INLINE LanesOf<D> any_root(LanesOf<D> a, LanesOf<D> b, LanesOf<D> gamma);
-
-template <class L>
-HWY_INLINE Twice<L> guess_inverse_cube_root(Twice<L> x) {
-    return {guess_inverse_cube_root(x.a), guess_inverse_cube_root(x.b)};
-}
-template <class L>
-HWY_INLINE Twice<L> any_root(Twice<L> a, Twice<L> b, Twice<L> gamma) {
-    return {any_root(a.a, b.a, gamma.a), any_root(a.b, b.b, gamma.b)};
-}
-
 // The solution y for a in [1e-9, 1e7], b in [0, 1e7], and y at most about 1.
 template <class R>
 HWY_INLINE R softness(R a, R b, R gamma) {
@@ -106,24 +88,6 @@ HWY_INLINE R softness(R a, R b, R gamma) {
     if (all(gamma == R(1))) return linear_root(a, b);
     if (all(gamma == R(2))) return quadratic_root(a, b);
     return any_root(a, b, gamma);
-}
-
-// Goes through the lanes one by one. This is slow, and gives the same bits at every register width. The usual
-// exponents have the same bits as in softness(), so that a result does not depend on which contacts share a
-// register.
-template <class D>
-HWY_INLINE LanesOf<D> any_root(LanesOf<D> a, LanesOf<D> b, LanesOf<D> gamma) {
-    using Number = hn::TFromD<D>;
-    HWY_ALIGN Number as[LanesOf<D>::count], bs[LanesOf<D>::count], gammas[LanesOf<D>::count];
-    store(a, as), store(b, bs), store(gamma, gammas);
-    const auto third = static_cast<Number>(1.0 / 3.0);
-    for (int k = 0; k < LanesOf<D>::count; ++k) {
-        if (gammas[k] != 1 && gammas[k] != 2 && gammas[k] != third) as[k] = any_root(as[k], bs[k], gammas[k]);
-    }
-    using L = LanesOf<D>;
-    const L other =
-        select(gamma == L(1), linear_root(a, b), select(gamma == L(2), quadratic_root(a, b), load<L>(as)));
-    return select(gamma == L(1.0 / 3.0), cubic_root(a, b), other);
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

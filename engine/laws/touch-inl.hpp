@@ -7,7 +7,7 @@
 #define GRAINREEL_LAWS_TOUCH_INL
 #endif
 
-#include "engine/vector/lanes-inl.hpp"
+#include "engine/vector/number-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {

@@ -87,7 +87,8 @@ struct WaltonBraunCorrected {
         }
         const R whole = before + R(0.5) * spring * dt;  // N s, impulse of the step
         const R rest = a - residual(p, h);              // m, overlap left until the force ends
-        const auto steps = dt > R(0), leaves = (rest + dt * (v - whole * by_mass) < R(0)) & (spring > R(0));
+        const auto steps = dt > R(0);
+        const decltype(steps) leaves = (rest + dt * (v - whole * by_mass) < R(0)) & (spring > R(0));
         const R over_the_step = select(steps, whole * by_step, spring);
         if (none(leaves)) return over_the_step;
         const R exit = root(speed * speed + spring * spring * h.softness * by_mass);

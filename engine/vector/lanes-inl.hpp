@@ -1,6 +1,6 @@
-// Lanes: a register of doubles or floats that is used like a number, so that a law is written once for all
-// widths and for a plain double. The file is compiled for each instruction set; the guard below is that of
-// Highway's foreach_target.h.
+// Lanes: a register of doubles or floats that is used like a number (number-inl.hpp), so that a law is
+// written once for all widths and for a plain double. The file is compiled for each instruction set; the
+// guard below is that of Highway's foreach_target.h.
 //
 // Multiplications and additions are fused where the code says so and the processor can do it. So AVX2,
 // AVX-512 and NEON give the same bits. SSE4 and the code for plain numbers round twice and give other bits.
@@ -11,12 +11,10 @@
 #define GRAINREEL_VECTOR_LANES_INL
 #endif
 
-#include <hwy/highway.h>
-
-#include <cmath>
-#include <concepts>
 #include <cstdint>
 #include <type_traits>
+
+#include "engine/vector/number-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -96,56 +94,10 @@ using FloatLanes = LanesOf<Floats>;
 using LanesMask = Lanes::Mask;
 constexpr int kLanes = Lanes::count;
 
-// The type of the numbers in a register, or of a number itself.
-template <class R>
-struct NumberIn {
-    using type = R;
-};
 template <class D>
 struct NumberIn<LanesOf<D>> {
     using type = hn::TFromD<D>;
 };
-template <class R>
-using NumberOf = typename NumberIn<R>::type;
-
-// The functions of LanesOf and MaskOf for a plain number.
-template <std::floating_point T>
-HWY_INLINE T select(bool which, T yes, T no) {
-    return which ? yes : no;
-}
-template <std::floating_point T>
-HWY_INLINE T multiply_add(T a, T b, T c) {
-    return a * b + c;
-}
-template <std::floating_point T>
-HWY_INLINE T less_product(T c, T a, T b) {
-    return c - a * b;
-}
-template <std::floating_point T>
-HWY_INLINE T root(T a) {
-    return std::sqrt(a);
-}
-template <std::floating_point T>
-HWY_INLINE T larger(T a, T b) {
-    return a > b ? a : b;
-}
-template <std::floating_point T>
-HWY_INLINE T smaller(T a, T b) {
-    return a < b ? a : b;
-}
-template <std::floating_point T>
-HWY_INLINE T size_of(T a) {
-    return a < 0 ? -a : a;
-}
-HWY_INLINE bool differ(bool a, bool b) {
-    return a != b;
-}
-HWY_INLINE bool none(bool m) {
-    return !m;
-}
-HWY_INLINE bool all(bool m) {
-    return m;
-}
 
 // `at` must be aligned to the register. A type that consists of two registers (`Twice`) names the type of one
 // of them `Half`, and is loaded in two halves.
@@ -214,48 +166,6 @@ HWY_INLINE void store_as(LanesOf<D> a, double* at) {
         store(a, at);
     else
         widen(D(), a.value, at);
-}
-
-// Three numbers along x, y, z.
-template <class R>
-struct Triple {
-    R x, y, z;
-
-    HWY_INLINE R dot(const Triple& b) const { return multiply_add(z, b.z, multiply_add(y, b.y, x * b.x)); }
-    HWY_INLINE R squared() const { return dot(*this); }
-    HWY_INLINE Triple cross(const Triple& b) const {
-        return {less_product(y * b.z, z, b.y), less_product(z * b.x, x, b.z), less_product(x * b.y, y, b.x)};
-    }
-    // *this + b s, *this - b s.
-    HWY_INLINE Triple plus(const Triple& b, const R& s) const {
-        return {multiply_add(b.x, s, x), multiply_add(b.y, s, y), multiply_add(b.z, s, z)};
-    }
-    HWY_INLINE Triple less(const Triple& b, const R& s) const {
-        return {less_product(x, b.x, s), less_product(y, b.y, s), less_product(z, b.z, s)};
-    }
-    // Its part perpendicular to the unit vector k.
-    HWY_INLINE Triple across(const Triple& k) const { return less(k, k.dot(*this)); }
-    HWY_INLINE Triple operator-() const { return {-x, -y, -z}; }
-    HWY_INLINE Triple& operator+=(const Triple& b) {
-        x += b.x, y += b.y, z += b.z;
-        return *this;
-    }
-};
-template <class R>
-HWY_INLINE Triple<R> operator+(const Triple<R>& a, const Triple<R>& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class R>
-HWY_INLINE Triple<R> operator-(const Triple<R>& a, const Triple<R>& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class R>
-HWY_INLINE Triple<R> operator*(const Triple<R>& a, const R& s) {
-    return {a.x * s, a.y * s, a.z * s};
-}
-template <class R, class M>
-HWY_INLINE Triple<R> select(M which, const Triple<R>& yes, const Triple<R>& no) {
-    return {select(which, yes.x, no.x), select(which, yes.y, no.y), select(which, yes.z, no.z)};
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -75,9 +75,9 @@ void add_contact_forces(const ForceInput& forces, Grains& grains, ThreadContacts
 
             const LawInput law = law_input(in, group, chunk, rounded, memory);
             table.note_touching(c, memory.touch.touching);
-            // From here to the formula: step_chunk() loads a register of contacts and LawPair::force()
-            // joins the two laws (both in engine/laws/contact_law-inl.hpp). The force() of a law is the
-            // formula: SpringDashpot::force() (spring_dashpot-inl.hpp), LinearSpring::force()
+            // From here to the formula: step_chunk() (engine/laws/kernel-inl.hpp) loads a register of
+            // contacts, and LawPair::force() (contact_law-inl.hpp) joins the two laws. The force() of a law
+            // is the formula: SpringDashpot::force() (spring_dashpot-inl.hpp), LinearSpring::force()
             // (linear_spring-inl.hpp) and so on.
             const auto step = are_of_one_kind(group, law) ? group.law->step_one_kind : group.law->step;
             void* history = table.histories().of_block(c);

@@ -7,18 +7,12 @@
 #include "engine/vector/targets.hpp"
 //
 #include "engine/step/forces/loads-inl.hpp"
+#include "engine/step/forces/pushes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// Forces and torques of L::count contacts. The second body gains `force`, and the first body loses it. The
-// first body loses the torque `first_loses`, and the second gains the torque `second_gains`.
-template <class L>
-struct Pushes {
-    Triple<L> force, first_loses, second_gains;
-};
-
-// With turning = k x T, the torque on either body is -arm * turning. Resistance to rolling is added to it.
+// Forces and torques of L::count contacts.
 template <class L, bool rubs>
 HWY_INLINE Pushes<L> pushes(const ChunkOfContacts& chunk, int c) {
     const Triple<L> k = triple_at<L>(chunk.touch->normal, c);
@@ -27,15 +21,9 @@ HWY_INLINE Pushes<L> pushes(const ChunkOfContacts& chunk, int c) {
     if constexpr (!rubs) {
         p.force = k * normal;
     } else {
-        const Triple<L> across = triple_at<L>(chunk.force->tangential, c), turning = k.cross(across);
-        p.force = across.plus(k, normal);
-        p.first_loses = turning * row_at<L>(chunk.touch->first_arm, c);
-        p.second_gains = -(turning * row_at<L>(chunk.touch->second_arm, c));
-        if (chunk.rolling) {
-            const Triple<L> rolling = triple_at<L>(chunk.rolling->torque, c);
-            p.first_loses += rolling;
-            p.second_gains += rolling;
-        }
+        p = pushes_of(k, normal, triple_at<L>(chunk.force->tangential, c),
+                      row_at<L>(chunk.touch->first_arm, c), row_at<L>(chunk.touch->second_arm, c));
+        if (chunk.rolling) add_rolling(triple_at<L>(chunk.rolling->torque, c), p);
     }
     return p;
 }
@@ -92,7 +80,7 @@ HWY_INLINE void put_work(const WallLoads& in, int c, const Triple<L>& force, dou
     for (int k = 0; k < L::count; k += kLanes) {
         const auto v = load_bundles(at_end, sizeof(FaceMotion) / sizeof(double), in.contacts.second + c + k);
         const Triple<Lanes> on_wall{load(rows[0] + k), load(rows[1] + k), load(rows[2] + k)};
-        store(on_wall.dot({v.a, v.b, v.c}) * Lanes(-in.step), work + k);
+        store(work_of(on_wall, {v.a, v.b, v.c}, in.step), work + k);
     }
 }
 

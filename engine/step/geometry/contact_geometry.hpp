@@ -1,5 +1,6 @@
 // Geometry and motion of contacts: from the places and motions of the bodies to the rows that a law reads
-// (TouchChunk, engine/laws/law_kernel.hpp).
+// (TouchChunk, engine/laws/law_kernel.hpp). The formulas are in *_formulas-inl.hpp, for one number or a
+// register.
 #pragma once
 
 #include <cstddef>

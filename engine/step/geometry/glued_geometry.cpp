@@ -5,7 +5,8 @@
 #define HWY_TARGET_INCLUDE "engine/step/geometry/glued_geometry.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "engine/step/geometry/turn-inl.hpp"
+#include "engine/step/geometry/pair_formulas-inl.hpp"
+#include "engine/step/geometry/rows-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -20,9 +21,8 @@ HWY_INLINE AtGlued at_glued(const double* place, const GluedState& state, const 
     const auto grain = load_bundles(place, kPlaceNumbers, i);
     const auto glued = load_bundles(numbers(state.glued.place), 4, j);
     const auto face_point = load_bundles(numbers(state.walls.faces) + 4, 8, face);
-    AtGlued at{triple(face_point) + triple(glued) - triple(grain), Lanes(0.0), Lanes(grain.d),
-               Lanes(glued.d)};
-    if (state.period > 0) at.apart.x = nearest(at.apart.x, Lanes(state.period));
+    AtGlued at{between(triple(grain), triple(face_point) + triple(glued), state.period), Lanes(0.0),
+               Lanes(grain.d), Lanes(glued.d)};
     at.distance = root(at.apart.squared());
     return at;
 }
@@ -44,7 +44,8 @@ void glued_chunk(const GeometryInput& in, const GluedState& state, const std::in
     const double* place = numbers(in.grains->place);
     const double* motion = numbers(in.grains->motion);
     out.touching = 0;
-    const Lanes half(0.5), one(1.0), turn(0.5 * in.turns_for), half_step(0.5 * in.step);
+    const Lanes one(1.0);
+    const HalfTimes<Lanes> half{Lanes(0.5 * in.turns_for), Lanes(0.5 * in.step)};
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         const std::int32_t* i = in.first + c;
         const AtGlued at = at_glued(place, state, i, in.second + c, face + c);
@@ -69,14 +70,11 @@ void glued_chunk(const GeometryInput& in, const GluedState& state, const std::in
         if (in.wants >= Wants::spin) {
             Lanes arm = at.radius;
             if (in.arms == LeverArms::contact_plane)
-                arm = half * multiply_add((at.radius - at.other_radius) * reach, inverse, at.distance);
+                arm = Lanes(0.5) * multiply_add((at.radius - at.other_radius) * reach, inverse, at.distance);
             const Triple<Lanes> rate = triple(load_bundles(motion + kSpinOfMotion, kMotionNumbers, i));
-            const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
-            const Triple<Lanes> across = velocity.less(k, closing);
-            const Lanes farther = less_product(one, Lanes(2.0) * in_half, closing);
-            put<Number>(turn_of(k, across * (in_half * farther), half * half_step * rate.dot(k)), out.turn,
-                        c);
-            velocity = of_surfaces(velocity, rate * arm, k, across * (turn * inverse));
+            const Rubbing<Lanes> rubbing = rubbing_of_spheres(k, velocity, inverse, rate * arm, rate, half);
+            put<Number>(rubbing.turn, out.turn, c);
+            velocity = rubbing.velocity;
             put<Number>(arm, out.first_arm, c);
             if (in.wants == Wants::rolling) put<Number>(rate.across(k), in.rolling->rate, c);
         }

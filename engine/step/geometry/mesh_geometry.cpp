@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "engine/step/geometry/mesh_geometry.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "engine/step/geometry/turn-inl.hpp"
+#include "engine/step/geometry/rows-inl.hpp"
 #include "engine/vector/plain-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -5,7 +5,8 @@
 #define HWY_TARGET_INCLUDE "engine/step/geometry/pair_geometry.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "engine/step/geometry/turn-inl.hpp"
+#include "engine/step/geometry/pair_formulas-inl.hpp"
+#include "engine/step/geometry/rows-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -33,11 +34,10 @@ std::uint64_t pairs_within(const Grains& grains, const std::int32_t* i, const st
     const Places at(i, j, count);
     std::uint64_t touching = 0;
     for (int c = 0; c < count; c += kLanes) {
-        const auto between = load_relative(place, 1, at.second + c, at.first + c);
-        Triple<Lanes> apart = triple(between);
+        const auto relative = load_relative(place, 1, at.second + c, at.first + c);
+        Triple<Lanes> apart = triple(relative);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
-        const Lanes reach = Lanes(between.d) + Lanes(gap);
-        touching |= bits(apart.squared() < reach * reach) << c;
+        touching |= bits(are_closer(apart, Lanes(relative.d), Lanes(gap))) << c;
     }
     return touching;
 }
@@ -54,8 +54,7 @@ void sweep_places(const GeometryInput& in, const Places& at, double period, Touc
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         out.fetch_some();
         const auto one = load_bundles(place, 1, at.first + c), two = load_bundles(place, 1, at.second + c);
-        Triple<Lanes> apart = triple(two) - triple(one);
-        if (period > 0) apart.x = nearest(apart.x, Lanes(period));
+        const Triple<Lanes> apart = between(triple(one), triple(two), period);
         const Lanes radius_one(one.d), radius_two(two.d), distance = root(apart.squared());
         const Lanes overlap = radius_one + radius_two - distance;
         out.touching |= bits(overlap > Lanes(0.0)) << c;
@@ -77,10 +76,10 @@ void sweep_rounded_places(const GeometryInput& in, const Places& at, double peri
     out.touching = 0;
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         out.fetch_some();
-        const auto between = load_relative(place, 1, at.second + c, at.first + c);
-        Triple<Lanes> apart = triple(between);
+        const auto relative = load_relative(place, 1, at.second + c, at.first + c);
+        Triple<Lanes> apart = triple(relative);
         if (period > 0) apart.x = nearest(apart.x, Lanes(period));
-        const Lanes reach(between.d), difference = reach * reach - apart.squared();
+        const Lanes reach(relative.d), difference = reach * reach - apart.squared();
         out.touching |= bits(difference > Lanes(0.0)) << c;
         put<float>(difference, out.overlap, c);
         put<float>(apart, out.normal, c);
@@ -130,7 +129,7 @@ void sweep_radii(const GeometryInput& in, const Places& at, TouchChunk& out) {
             one = load_bundles<Floats>(from, 2, at.first + c).d;
             two = load_bundles<Floats>(from, 2, at.second + c).d;
         }
-        put<Number>(one * two / (one + two), out.effective_radius, c);
+        put<Number>(effective_radius_of(one, two), out.effective_radius, c);
     }
 }
 
@@ -146,20 +145,11 @@ void sweep_velocities(const GeometryInput& in, const Places& at, TouchChunk& out
     }
 }
 
-// Arms that end at the plane of the circle in which the two spheres intersect. The two arms add up to the
-// distance of the centres, and this conserves angular momentum. (The original program used the radii; see
-// docs/notes/step.md.)
-template <class L>
-HWY_INLINE void to_contact_plane(L distance, L inverse, L& one, L& two) {
-    one = L(0.5) * multiply_add((one - two) * (one + two), inverse, distance);
-    two = distance - one;
-}
-
 template <class L>
 void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
     using Number = NumberOf<L>;
     const Number* from = velocities<L>(*in.grains) + 4;
-    const L turn(0.5 * in.turns_for), half_step(0.5 * in.step);
+    const HalfTimes<L> half{L(0.5 * in.turns_for), L(0.5 * in.step)};
     for (int c = 0; c < in.count; c += L::count) {
         out.fetch_some();
         const auto first = load_bundles<typename L::Tag>(from, 2, at.first + c);
@@ -176,13 +166,10 @@ void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
             to_contact_plane(row_at<L>(out.turn[0], c), inverse, first_arm, second_arm);
         put<Number>(first_arm, out.first_arm, c);
         put<Number>(second_arm, out.second_arm, c);
-        const L closing = k.dot(velocity), in_half = half_step * inverse;
-        const Triple<L> across = velocity.less(k, closing);
-        const Triple<L> spins = (one * first_arm).plus(two, second_arm);
-        put<Number>(of_surfaces(velocity, spins, k, across * (turn * inverse)), out.velocity, c);
-        const L farther = less_product(L(1.0), L(2.0) * in_half, closing);  // distance now / before the step
-        put<Number>(turn_of(k, across * (in_half * farther), L(0.5) * half_step * (one + two).dot(k)),
-                    out.turn, c);
+        const Rubbing<L> rubbing = rubbing_of_spheres(
+            k, velocity, inverse, (one * first_arm).plus(two, second_arm), one + two, half);
+        put<Number>(rubbing.velocity, out.velocity, c);
+        put<Number>(rubbing.turn, out.turn, c);
         if (in.wants == Wants::rolling) put<Number>((one - two).across(k), in.rolling->rate, c);
     }
 }

@@ -1,4 +1,5 @@
-// Geometry that contacts of pairs and of walls have in common: how surfaces move, and how contacts turn.
+// Formulas that contacts of pairs and of walls have in common: how surfaces move, and how contacts turn. Like
+// all formulas of contacts, they take one number or a register.
 #if defined(GRAINREEL_STEP_TURN_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_STEP_TURN_INL
 #undef GRAINREEL_STEP_TURN_INL
@@ -6,8 +7,7 @@
 #define GRAINREEL_STEP_TURN_INL
 #endif
 
-#include "engine/laws/row-inl.hpp"
-#include "engine/step/grid/places-inl.hpp"
+#include "engine/vector/number-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
@@ -33,10 +33,28 @@ HWY_INLINE Triple<L> turn_of(const Triple<L>& k, const Triple<L>& back, L twist)
     return back.cross(k).plus(k + back, twist);
 }
 
-// The number of contacts together with the copies that fill the last block. Laws may read these copies, so
-// whether they touch is computed for them too.
-HWY_INLINE int whole_blocks(int count) {
-    return (count + kBlock - 1) / kBlock * kBlock;
+// The motion of a contact that rubs.
+template <class R>
+struct Rubbing {
+    Triple<R> velocity;  // m/s, of i's surface relative to j's
+    Triple<R> turn;      // Cayley's vector
+};
+
+// The times (s) by which a contact's motion is found: half of GeometryInput::turns_for, and half a step.
+template <class R>
+struct HalfTimes {
+    R turn, step;
+};
+
+// From the velocity of the centres and the spins. `across` is the part of the velocity that turns the normal
+// k, over the distance 1 / `inverse`; it turned it by as much at the distance at the step's beginning, of
+// which today's is the share `farther`. `spins` are spins times arms, and `both` is the sum of the spins.
+template <class R>
+HWY_INLINE Rubbing<R> rubbing_of(const Triple<R>& k, const Triple<R>& velocity, const Triple<R>& across,
+                                 R inverse, R farther, const Triple<R>& spins, const Triple<R>& both,
+                                 const HalfTimes<R>& half) {
+    return {of_surfaces(velocity, spins, k, across * (half.turn * inverse)),
+            turn_of(k, across * (half.step * inverse * farther), R(0.5) * half.step * both.dot(k))};
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -6,42 +6,35 @@
 #define HWY_TARGET_INCLUDE "engine/step/geometry/wall_geometry.cpp"
 #include "engine/vector/targets.hpp"
 //
-#include "engine/step/geometry/turn-inl.hpp"
+#include "engine/step/geometry/rows-inl.hpp"
+#include "engine/step/geometry/wall_formulas-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-// A grain at a wall. The wall is a plane or a cylinder.
-struct AtWall {
-    Triple<Lanes> out_from_axis;
-    Lanes from_axis, distance, radius;
-    LanesMask round;
+struct GrainAtWall {
+    AtWall<Lanes> at;
+    Triple<Lanes> into;
+    Lanes radius;
 };
-HWY_INLINE AtWall at_wall(const double* place, const WallState& walls, const std::int32_t* i,
-                          const std::int32_t* face, Triple<Lanes>& into) {
-    const Lanes zero(0.0);
+HWY_INLINE GrainAtWall at_wall(const double* place, const WallState& walls, const std::int32_t* i,
+                               const std::int32_t* face) {
     const auto grain = load_bundles(place, kPlaceNumbers, i);
     const auto plane = load_bundles(numbers(walls.faces), 8, face);
-    const Triple<Lanes> centre = triple(grain);
-    into = triple(plane);
-    AtWall w{{zero, zero, zero}, zero, into.dot(centre) - Lanes(plane.d), Lanes(grain.d), zero > zero};
+    const Triple<Lanes> centre = triple(grain), into = triple(plane);
+    GrainAtWall w{at_plane(centre, into, Lanes(plane.d)), into, Lanes(grain.d)};
     if (!walls.any_round) return w;
     const auto cylinder = load_bundles(numbers(walls.faces) + 4, 8, face);
-    w.out_from_axis = centre - triple(cylinder);
-    w.out_from_axis.z = zero;
-    w.from_axis = root(w.out_from_axis.squared());
-    w.round = Lanes(cylinder.d) > zero;
-    w.distance = select(w.round, Lanes(cylinder.d) - w.from_axis, w.distance);
+    or_cylinder(centre, triple(cylinder), Lanes(cylinder.d), w.at);
     return w;
 }
 
 std::uint64_t walls_that_touch(const Grains& grains, const std::int32_t* i, const std::int32_t* face,
                                int count, const WallState& walls) {
     std::uint64_t touching = 0;
-    Triple<Lanes> into;
     for (int c = 0; c < count; c += kLanes) {
-        const AtWall w = at_wall(numbers(grains.place), walls, i + c, face + c, into);
-        touching |= bits(w.distance < w.radius) << c;
+        const GrainAtWall w = at_wall(numbers(grains.place), walls, i + c, face + c);
+        touching |= bits(w.at.distance < w.radius) << c;
     }
     return touching;
 }
@@ -51,20 +44,19 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
     const double* place = numbers(in.grains->place);
     const double* motion = numbers(in.grains->motion);
     out.touching = 0;
-    const Lanes turn(0.5 * in.turns_for), half_step(0.5 * in.step);
+    const HalfTimes<Lanes> half{Lanes(0.5 * in.turns_for), Lanes(0.5 * in.step)};
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         const std::int32_t *i = in.first + c, *face = in.second + c;
-        Triple<Lanes> into;
-        const auto [out_from_axis, from_axis, distance, radius, round] = at_wall(place, walls, i, face, into);
-        const Lanes overlap = radius - distance;
+        const auto [at, into, radius] = at_wall(place, walls, i, face);
+        const Lanes overlap = radius - at.distance;
         put<Number>(overlap, out.overlap, c);
         const LanesMask touching = overlap > Lanes(0.0);
         if (none(touching)) continue;
         out.touching |= bits(touching) << c;
 
         Lanes inverse(0.0);
-        if (walls.any_round) inverse = select(from_axis > inverse, Lanes(1.0) / from_axis, inverse);
-        const Triple<Lanes> k = select(round, out_from_axis * inverse, -into);
+        if (walls.any_round) inverse = inverse_of(at.from_axis);
+        const Triple<Lanes> k = normal_to(at, inverse, into);
         put<Number>(k, out.normal, c);
         if (in.radius) put<Number>(radius, out.effective_radius, c);
         if (wants == Wants::overlap && !in.mass) continue;
@@ -75,16 +67,11 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
 
         Triple<Lanes> velocity = triple(motion_one) - triple(load_bundles(numbers(walls.motion), 8, face));
         if constexpr (wants >= Wants::spin) {
-            const Lanes arm = in.arms == LeverArms::contact_plane ? distance : radius;
+            const Lanes arm = in.arms == LeverArms::contact_plane ? at.distance : radius;
             const Triple<Lanes> rate = triple(load_bundles(motion + kSpinOfMotion, kMotionNumbers, i));
-            // A cylinder's normal turns as the grain moves around the axis. A plane's normal does not turn.
-            const Lanes closing = k.dot(velocity), in_half = half_step * inverse;
-            Triple<Lanes> across = velocity.less(k, closing) * select(round, Lanes(-1.0), Lanes(0.0));
-            across.z = Lanes(0.0);
-            const Lanes nearer = multiply_add(Lanes(2.0) * in_half, closing, Lanes(1.0));
-            put<Number>(turn_of(k, across * (in_half * nearer), Lanes(0.5) * half_step * rate.dot(k)),
-                        out.turn, c);
-            velocity = of_surfaces(velocity, rate * arm, k, across * (turn * inverse));
+            const Rubbing<Lanes> rubbing = rubbing_at_wall(k, velocity, at.round, inverse, rate, arm, half);
+            put<Number>(rubbing.turn, out.turn, c);
+            velocity = rubbing.velocity;
             put<Number>(arm, out.first_arm, c);
             if constexpr (wants == Wants::rolling) put<Number>(rate.across(k), in.rolling->rate, c);
         }

@@ -1,4 +1,4 @@
-// Helpers to load the places of grains into registers, and the nearest periodic image.
+// Helpers to load the places of grains into registers.
 #if defined(GRAINREEL_STEP_PLACES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRAINREEL_STEP_PLACES_INL
 #undef GRAINREEL_STEP_PLACES_INL
@@ -20,13 +20,6 @@ HWY_INLINE const double* numbers(const Bundles& bundles) {
 template <class D>
 HWY_INLINE Triple<LanesOf<D>> triple(const Four<D>& f) {
     return {LanesOf<D>(f.a), LanesOf<D>(f.b), LanesOf<D>(f.c)};
-}
-
-// The difference x between two grains, taken to the nearest periodic image.
-HWY_INLINE Lanes nearest(Lanes x, Lanes period) {
-    const Lanes half = period * Lanes(0.5);
-    const Lanes low = select(x > half, x - period, x);
-    return select(x < -half, x + period, low);
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

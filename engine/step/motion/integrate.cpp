@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "engine/step/motion/integrate.cpp"
 #include "engine/vector/targets.hpp"
 //
+#include "engine/step/motion/kicks-inl.hpp"
 #include "engine/vector/bundle-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -92,8 +93,8 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
     const Numbers at(grains, in);
     const Bundle<4> zero = bundle_of(0.0), whole = bundle_of(Vec3(in.drift, in.drift, in.drift));
     const Bundle<4> closing = bundle_of(Vec3(in.closing_drift, in.closing_drift, in.closing_drift));
-    const Bundle<size> last = Whole::of(in.end_kick), next = Whole::of(in.begin_kick);
-    const Bundle<size> keep = Whole::of(in.keep, 1), nothing = Whole::of(zero, zero);
+    const Kicks<Bundle<size>> kicks{Whole::of(in.end_kick), Whole::of(in.begin_kick), Whole::of(in.keep, 1)};
+    const Bundle<size> nothing = Whole::of(zero, zero);
     const Vec3 no_minus_zero = in.gravity + Vec3::Zero();  // the same bits as with a load of zero
     const Bundle<size> gravity = Whole::of(bundle_of(no_minus_zero), zero);
     const Bundle<size> frame = Whole::of(bundle_of(in.frame), zero);
@@ -102,16 +103,11 @@ HWY_INLINE Vec3 pass_of(Grains& grains, const KickInput& in, std::int32_t begin,
         double *motion = at.motion + 8 * i, *load = at.load + 8 * i;
         Bundle<size> now = bundle_at<size>(motion), gains = gravity;
         if (has_load.value) gains = multiply_add(bundle_at<size>(load), Whole::fourths(motion), gravity);
-        if (ends) now = multiply_add(last, gains, now);
-        if (ends && drags) now = without_tiny(now * keep, kNoMotion);
+        now = kicked<ends, begins, drags>(now, gains, kicks, kNoMotion);
         if (begins) {
-            now = multiply_add(next, gains, now);
-            if (drags) now = without_tiny(now, kNoMotion);
             double* place = at.place + 4 * i;
             const double radius = place[3];
-            Bundle<4> moved = bundle_at<4>(place);
-            if (closes) moved = multiply_add(closing, first_four(now), moved);
-            put(multiply_add(whole, first_four(now), moved), place);
+            put(drifted<closes>(bundle_at<4>(place), first_four(now), closing, whole), place);
             if (has_load.value) put(nothing, load);
             const Bundle<size> relative = now - frame;
             fastest = larger_size(fastest, first_four(relative));
