@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "engine/base/numbers.hpp"
 #include "engine/base/typed_time.hpp"
 #include "engine/scene/text/units.hpp"
-#include "render/scene/axis_titles.hpp"
 
 namespace grainreel {
 namespace {
@@ -59,45 +57,6 @@ TimedRows finite_rows(const TimedRows& all) {
 }
 
 }  // namespace
-
-std::string axis_title(const std::string& label, const std::string& unit) {
-    if (unit.empty()) return label;
-    const auto is_apart = [&](std::size_t at) {
-        return at >= label.size() || std::string_view(" ,;:()[]").find(label[at]) != std::string_view::npos;
-    };
-    for (std::size_t at = label.find(unit); at != std::string::npos; at = label.find(unit, at + 1)) {
-        const std::size_t end = at + unit.size();
-        const bool whole = is_apart(end) || (label[end] == 's' && is_apart(end + 1));  // "degrees"
-        if (whole && (at == 0 || is_apart(at - 1))) return label;
-    }
-    return with_unit(label, unit);
-}
-
-namespace {
-
-// Words of a label that may be a unit: in the last brackets, behind the last comma, behind the last "in".
-std::vector<std::string> possible_units(const std::string& label) {
-    std::vector<std::string> all;
-    const std::size_t open = label.find_last_of("(["), close = label.find_last_of(")]");
-    if (open != std::string::npos && close != std::string::npos && open < close)
-        all.push_back(label.substr(open + 1, close - open - 1));
-    for (const std::string_view before : {", ", " in "})
-        if (const std::size_t at = label.rfind(before); at != std::string::npos)
-            all.push_back(label.substr(at + before.size()));
-    return all;
-}
-
-}  // namespace
-
-ShownUnit shown_unit(const std::string& label, const std::string& unit) {
-    if (unit.empty() || axis_title(label, unit) == label) return {unit, 1};
-    const std::optional<AnyUnit> own = parse_unit(unit);
-    for (const std::string& name : possible_units(label)) {
-        const std::optional<AnyUnit> named = own ? parse_unit(name) : std::nullopt;
-        if (named && named->powers == own->powers && named->size > 0) return {name, own->size / named->size};
-    }
-    return {unit, 1};
-}
 
 Assignments Variation::assignments(std::size_t number) const {
     const Value& value = values[number];

@@ -12,24 +12,13 @@
 #include <vector>
 
 #include "engine/scene/keys/keys.hpp"
+#include "render/scene/axis_titles.hpp"
 
 namespace grainreel {
 
 constexpr const char* variant_axis = "variant";
 
 using Seeds = std::vector<std::uint64_t>;
-
-// What an axis is called: "drive frequency (Hz)". The unit is left out where there is none, and where the
-// label names it by itself: "rate of the drum, rad/s".
-std::string axis_title(const std::string& label, const std::string& unit);
-
-// The unit in which the numbers of an axis are shown: that which its label names, if it is another one of the
-// same kind ("energy (mJ)", "height in mm"), else `unit`. Numbers are multiplied by `factor`.
-struct ShownUnit {
-    std::string unit;
-    double factor = 1;
-};
-ShownUnit shown_unit(const std::string& label, const std::string& unit);
 
 // One axis of the grid: a key of the scene and the values that it takes. The variants of a study are an axis
 // too, the first one: its key is `variant_axis`, and its values are their names.
