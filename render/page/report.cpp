@@ -7,7 +7,6 @@
 
 #include "engine/base/plain_file.hpp"
 #include "render/page/embed.hpp"
-#include "render/page/facts/outflow_table.hpp"
 #include "render/page/facts/run_names.hpp"
 #include "render/page/run_part.hpp"
 #include "render/page/shown_film.hpp"

@@ -12,9 +12,8 @@
 #include "render/app/print/run_charts.hpp"
 #include "render/app/study/file/variations.hpp"
 #include "render/app/study/page.hpp"
-#include "render/app/study/results/axes.hpp"
-#include "render/app/study/results/captions.hpp"
 #include "render/app/study/results/drawing.hpp"
+#include "render/app/study/results/points.hpp"
 #include "render/app/study/results/results.hpp"
 #include "render/app/study/results/warnings.hpp"
 #include "render/page/embed.hpp"
@@ -49,7 +48,8 @@ TEST(StudyChartLabels, MayNameAnotherUnit) {
     EXPECT_NEAR(unit("height in mm", "m").factor, 1000, 1e-9);
     EXPECT_NEAR(unit("time to empty, min", "s").factor, 1.0 / 60, 1e-12);
     for (const auto& [label, own] : {std::pair{"kinetic energy (J)", "J"}, std::pair{"energy (s)", "J"},
-                                     std::pair{"height in bed heights", "m"}, std::pair{"angle (deg)", ""}})
+                                     std::pair{"height in bed heights", "m"}, std::pair{"angle (deg)", ""},
+                                     std::pair{"energy (mJ) of the big", "J"}})
         EXPECT_EQ(unit(label, own).factor, 1) << label;
     EXPECT_EQ(axis_title("energy (mJ)", unit("energy (mJ)", "J").unit), "energy (mJ)");
 }

@@ -7,7 +7,6 @@
 
 #include "engine/base/counted.hpp"
 #include "engine/base/lists.hpp"
-#include "render/app/study/results/captions.hpp"
 #include "render/app/study/results/drawing.hpp"
 #include "render/app/study/results/points.hpp"
 #include "render/app/study/results/summary.hpp"
@@ -111,13 +110,13 @@ std::string charts_without_points(const Study& study, const std::vector<Member>&
 // What the marks of all charts are, each sentence once.
 std::string legend_of(const Study& study, const std::vector<Member>& members,
                       const std::vector<MemberResult>& results) {
-    std::vector<std::string> said;
+    std::vector<std::string> sentences;
     std::string text;
     for (const StudyChart& chart : study.charts)
         for (const std::string& sentence : legend_sentences(study.measures[chart.y].average,
                                                             chart_series(study, members, results, chart))) {
-            if (std::find(said.begin(), said.end(), sentence) != said.end()) continue;
-            said.push_back(sentence);
+            if (contains(sentences, sentence)) continue;
+            sentences.push_back(sentence);
             text += html_text(sentence) + ". ";
         }
     return text.empty() ? "" : "<p>" + text + "</p>\n";

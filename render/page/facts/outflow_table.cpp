@@ -1,4 +1,5 @@
-#include "render/page/facts/outflow_table.hpp"
+// The table of how fast grains flow out of hoppers, beside what Beverloo's law expects.
+#include "render/page/facts/run_names.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Finds names for the runs of a page, and the keys in which their scenes differ.
+// What a page says of its runs side by side: their names, the keys in which their scenes differ, and how fast
+// grains flow out (outflow_table.cpp).
 #pragma once
 
 #include <filesystem>
@@ -32,6 +33,11 @@ struct NamedScene {
 // A table of the keys whose values are not all the same, with a column for each scene; or a sentence that
 // there are none.
 std::string differences_html(const std::vector<NamedScene>& scenes, const PageWords& say);
+
+// The table of how fast grains flow out of hoppers, beside what Beverloo's law expects: a row for each run
+// from which grains flow; empty where there is none. RunToName::given is the name of the row, which a page of
+// one run does not show.
+std::string outflow_html(const std::vector<RunToName>& runs, const PageWords& say);
 
 // The keys and values in the text of a run's scene.toml: "drive.frequency" -> "20", "species.2.count" -> "10"
 // for the second species.

@@ -20,7 +20,6 @@
 #include "engine/run/driver/pace.hpp"
 #include "engine/scene/text/toml_text.hpp"
 #include "render/app/study/members/child.hpp"
-#include "render/app/study/members/study_copy.hpp"
 
 namespace grainreel {
 namespace {
@@ -314,11 +313,11 @@ std::vector<std::string> go_on_command(const Member& member, const StudyFolder& 
 }
 
 std::vector<ShorterRun> shorter_runs(const std::vector<Member>& members, const StudyFolder& folder) {
-    std::set<std::string> wanted;
+    std::set<std::string> members_of_study;
     std::map<std::string, std::size_t> by_stem;  // members that have no folder yet
     std::error_code none;
     for (std::size_t m = 0; m < members.size(); ++m) {
-        wanted.insert(members[m].name);
+        members_of_study.insert(members[m].name);
         if (!is_there(folder.member(members[m]))) by_stem.emplace(members[m].stem, m);
     }
     std::map<std::size_t, std::pair<double, std::filesystem::path>> longest;  // duration and folder
@@ -326,7 +325,7 @@ std::vector<ShorterRun> shorter_runs(const std::vector<Member>& members, const S
         const std::string name = entry.path().filename().string();
         const std::size_t end = name.rfind('_');
         const auto member = by_stem.find(name.substr(0, end));
-        if (end == std::string::npos || member == by_stem.end() || wanted.count(name) > 0) continue;
+        if (end == std::string::npos || member == by_stem.end() || members_of_study.count(name) > 0) continue;
         const double duration = std::strtod(name.c_str() + end + 1, nullptr);
         if (!(duration > 0) || duration >= members[member->second].duration) continue;
         const ReadRunJson record = read_run_json(entry.path() / "run.json");

@@ -42,6 +42,11 @@ struct StudyFolder {
 // Makes the folder with all that the commands need. Throws UserError when that cannot be done.
 void make_study_folder(const Study& study, const std::vector<Member>& members, const StudyFolder& folder);
 
+// Writes the study's copy in its folder (study_copy.cpp): study.toml, its scene, and the files that both
+// name. It is a study as it stands, so whoever has the folder and the program can run it again. Throws
+// RunError when that cannot be done.
+void write_study_copy(const Study& study, const std::vector<Member>& members, const StudyFolder& folder);
+
 // The next two functions make commands as lists of the words after the program's name. This one runs a member
 // on one thread; earlier files of the member are replaced.
 std::vector<std::string> run_command(const Study& study, const Member& member, const StudyFolder& folder,

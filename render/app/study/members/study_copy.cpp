@@ -1,4 +1,5 @@
-#include "render/app/study/members/study_copy.hpp"
+// The copy of a study in its own folder: study.toml, its scene, and the files that both name.
+#include "render/app/study/members/runner.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -58,8 +59,8 @@ std::string text_of_copy(const Study& study, const fs::path& scene) {
 // Where a file that the scene names lies beside the scene's copy, so that the same path leads to it. Empty
 // where the path is absolute in the scene, or leads out of the study's folder.
 fs::path beside_copy(const Study& study, const fs::path& from, const StudyFolder& folder) {
-    const fs::path there = fs::absolute(study.scene).parent_path().lexically_normal();
-    const fs::path relative = fs::absolute(from).lexically_normal().lexically_relative(there);
+    const fs::path scenes = fs::absolute(study.scene).parent_path().lexically_normal();
+    const fs::path relative = fs::absolute(from).lexically_normal().lexically_relative(scenes);
     const fs::path copy = (folder.scene(study).parent_path() / relative).lexically_normal();
     const fs::path inside = copy.lexically_relative(folder.path);
     return relative.empty() || inside.empty() || *inside.begin() == ".." ? fs::path() : copy;

@@ -1,4 +1,5 @@
-#include "render/app/study/results/axes.hpp"
+// The axes of a study's chart as commands for gnuplot.
+#include "render/app/study/results/drawing.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -89,8 +90,8 @@ std::string small_numbers_axis(char axis, Span span) {
     span.take(0 < span.low && span.low < 0.3 * span.high ? 0 : span.low);
     const double most = std::max(std::abs(span.low), std::abs(span.high)), width = span.high - span.low;
     if (!is_far_from_one(most) || !(width > 0)) return "";
-    constexpr double wanted = 5;  // marks
-    const double step = round_number(width / wanted, true);
+    constexpr double marks_aimed_at = 5;
+    const double step = round_number(width / marks_aimed_at, true);
     const int power = static_cast<int>(std::floor(std::log10(most) + 1e-12));
     const int decimals = std::max(0, power - static_cast<int>(std::floor(std::log10(step) + 1e-12)));
     std::string marks;
@@ -145,12 +146,12 @@ std::string range_of_one_height(const StudyMeasure& measure, const std::vector<C
 std::string search_marks(const Study& study, const StudyChart& chart) {
     if (!study.search || !study.search->found || chart.y != study.search->measure || chart.x != 0) return "";
     const auto& [low, estimate, high] = *study.search->found;
-    const double wanted = study.search->wanted * unit_of_y(study, chart).factor;
+    const double level = study.search->wanted * unit_of_y(study, chart).factor;
     return fmt::format(
         "set object 1 rectangle from first {:.9g}, graph 0 to first {:.9g}, graph 1 fc rgb '#e4e4e4' "
         "fillstyle solid noborder behind\n"
         "set arrow 1 from graph 0, first {:.9g} to graph 1, first {:.9g} nohead dt 2 lc rgb '#606060'\n",
-        shown_x(study, chart, low), shown_x(study, chart, high), wanted, wanted);
+        shown_x(study, chart, low), shown_x(study, chart, high), level, level);
 }
 
 }  // namespace grainreel

@@ -1,4 +1,5 @@
-#include "render/app/study/results/captions.hpp"
+// What is seen on a study's charts, in words.
+#include "render/app/study/results/points.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -55,8 +56,8 @@ std::string bars_sentence(SeedAverage average, const Seen& seen) {
 }
 
 void replace_all(std::string& text, const std::string& part, const std::string& other) {
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + other.size()))
-        text.replace(at, part.size(), other);
+    for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + other.size()))
+        text.replace(i, part.size(), other);
 }
 
 std::string for_latex(const std::string& text) {

@@ -11,8 +11,7 @@
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/lab/chart/gnuplot.hpp"
-#include "render/app/study/results/axes.hpp"
-#include "render/app/study/results/captions.hpp"
+#include "render/app/study/results/points.hpp"
 #include "render/app/study/results/results.hpp"
 
 namespace grainreel {

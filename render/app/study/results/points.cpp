@@ -25,9 +25,9 @@ std::vector<ChartSeries> chart_series(const Study& study, const std::vector<Memb
         const double x =
             axis.numeric ? shown_x(study, chart, axis.values[value].number) : static_cast<double>(value);
         if (!contains(names, name)) names.push_back(name);
-        std::vector<SeedValue>& there = seeds[{name, x}];
+        std::vector<SeedValue>& of_point = seeds[{name, x}];
         if (results[m].status == MemberResult::Status::complete)
-            there.push_back(results[m].seed_value(chart.y));
+            of_point.push_back(results[m].seed_value(chart.y));
     }
     if (!chart.series.empty()) names = chart.series;
     std::vector<ChartSeries> all;

@@ -1,5 +1,5 @@
-// The points of a study's charts: what the seeds of each setting say, and points from elsewhere (another
-// paper, an experiment) that are drawn beside them.
+// What a study's charts show: points, which are what the seeds of each setting say, points from elsewhere
+// (another paper, an experiment) beside them, and what is seen there in words (captions.cpp).
 #pragma once
 
 #include <filesystem>
@@ -46,5 +46,18 @@ struct ReferencePoint {
 // begin with # and a first line of words are left out. Throws UserError, "file:line:column: ...", for
 // anything else, and for a file without points. file: for messages.
 std::vector<ReferencePoint> read_reference(const std::string& points_text, const std::filesystem::path& file);
+
+// What is seen on a chart, in words: for the page, and as a caption for LaTeX.
+
+// "mean", "median", "share".
+const char* name_of(SeedAverage average);
+
+// What points, bars, rings and open symbols of these series are, in sentences; none about what is not there.
+std::vector<std::string> legend_sentences(SeedAverage average, const std::vector<ChartSeries>& series);
+
+// The text of NAME.caption.tex: what is drawn against what, over how many seeds, and what the marks are. What
+// has a meaning for LaTeX is escaped.
+std::string chart_caption(const Study& study, const StudyChart& chart,
+                          const std::vector<ChartSeries>& series);
 
 }  // namespace grainreel
