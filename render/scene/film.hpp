@@ -9,11 +9,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/base/vector.hpp"
 #include "engine/scene/text/units.hpp"
+#include "render/scene/colour.hpp"
 #include "render/scene/live_text.hpp"
 #include "render/scene/wording.hpp"
 
@@ -239,11 +239,6 @@ inline bool needs_touches(const FilmShows& look) {
            shows_value(look, GrainValue::contact_force);
 }
 
-struct Colour {
-    double red = 0, green = 0, blue = 0;  // sRGB, 0 to 1
-    bool operator==(const Colour&) const = default;
-};
-
 // A stretch of simulated time and how the film shows it.
 struct FilmSegment {
     enum class Kind { motion, locked };
@@ -387,16 +382,6 @@ struct Film {
 inline bool needs_measures(const Film& film) {
     return needs_measures(film.shows) || has_values(film.captions);
 }
-
-// Reads "#rrggbb", black, white, grey, or a name of Okabe and Ito's palette (2008, jfly.uni-koeln.de/color),
-// whose colours the colour-blind can tell apart too.
-std::optional<Colour> parse_colour(std::string_view text);
-
-// The palette's colour, from orange on, that is taken least often: a free one as long as there is one.
-Colour default_colour(const std::vector<Colour>& taken);
-
-// "#rrggbb".
-std::string colour_text(const Colour& colour);
 
 // The background of pictures where the scene names none.
 Colour default_background(FilmLook::Style style);

@@ -9,12 +9,13 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/files/frames/saved_scene.hpp"
 #include "engine/files/frames/stored_world.hpp"
 #include "engine/files/run_names.hpp"
 #include "engine/measure/columns.hpp"
-#include "engine/mesh/surface.hpp"
 #include "engine/run/import/arrival.hpp"
+#include "engine/run/import/import_doubts.hpp"
 #include "engine/run/import/import_measures.hpp"
 #include "engine/scene/scene_file.hpp"
 
@@ -30,8 +31,8 @@ class NewFolder {
     explicit NewFolder(fs::path path) : path_(std::move(path)) {
         std::error_code error;
         if (!fs::create_directories(path_, error) || error)
-            throw RunError(fmt::format("{}: cannot be made: {}", path_.string(),
-                                       error ? error.message() : std::string("it is there already")));
+            throw RunError("{}: cannot be made: {}", path_.string(),
+                           error ? error.message() : std::string("it is there already"));
     }
     ~NewFolder() {
         std::error_code ignored;
@@ -65,7 +66,7 @@ Scene written_and_read(const std::string& text, const ImportRequest& request) {
     try {
         return read_scene(file, {}, measurable_in);
     } catch (const UserError& why) {
-        throw UserError(fmt::format("{}: cannot be shown as a run: {}", request.from.string(), why.what()));
+        throw UserError("{}: cannot be shown as a run: {}", request.from.string(), why.what());
     }
 }
 
@@ -101,13 +102,6 @@ ArrivalFacts arrival_facts(const Scene& scene, const ForeignArchive& archive, co
 struct Import::Files {
     Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,
           std::vector<std::string>& news);
-    double largest_grain() const;  // m, diameter
-    void doubt_grains(const ImportRequest& request, const ForeignArchive& archive,
-                      std::vector<std::string>& news) const;
-    void doubt_walls(const ImportRequest& request, const ForeignArchive& archive,
-                     std::vector<std::string>& news) const;
-    void doubt_small_walls(const ImportRequest& request, const ForeignArchive& archive,
-                           std::vector<std::string>& news) const;
 
     const ImportWalls walls;
     const std::string scene_text;
@@ -121,64 +115,6 @@ struct Import::Files {
     const std::size_t bodies, places;
 };
 
-double Import::Files::largest_grain() const {
-    double largest = 0;
-    for (const Species& one : scene.species) largest = std::max(largest, one.diameter.largest);
-    return largest;
-}
-
-// Tells of grains that are as large as boulders, where lengths count as m and the user has not said so: the
-// files may be in mm.
-void Import::Files::doubt_grains(const ImportRequest& request, const ForeignArchive& archive,
-                                 std::vector<std::string>& news) const {
-    constexpr double too_large = 0.3;  // m
-    const UnitSystem& units = archive.units();
-    const bool in_metres = units.real && units.length == 1;
-    if (!in_metres || !request.reading.units.empty() || largest_grain() < too_large) return;
-    news.push_back(
-        fmt::format("{}: its grains are up to {:.4g} m large; where it is in mm, g and s, give --units mm",
-                    request.from.string(), largest_grain()));
-}
-
-// Tells of walls that are so large beside the grains that their file may be in another unit, as meshes of
-// ours are told of.
-void Import::Files::doubt_walls(const ImportRequest& request, const ForeignArchive& archive,
-                                std::vector<std::string>& news) const {
-    constexpr double too_large = 3000;  // diameters of the largest grain
-    const double largest = largest_grain();
-    const std::size_t first = scene.meshes.size() - archive.walls().size();
-    for (std::size_t m = first; m < scene.meshes.size() && !archive.walls()[m - first].is_box; ++m) {
-        const MeshFacts& facts = scene.meshes[m].surface->facts();
-        const double size = (facts.high - facts.low).maxCoeff();
-        if (!(largest > 0) || size <= too_large * largest) continue;
-        news.push_back(fmt::format(
-            "{}: the wall \"{}\" is {:.4g} m large, beside grains of {:.4g} m; where its file is in mm, give "
-            "--walls-scale {:g}",
-            request.from.string(), scene.meshes[m].name, size, largest,
-            0.001 * request.reading.walls_scale.value_or(archive.units().length)));
-        return;  // walls are in one unit
-    }
-    doubt_small_walls(request, archive, news);
-}
-
-// Tells of walls that are all smaller than a grain, as where their lengths were scaled and those of grains
-// were not.
-void Import::Files::doubt_small_walls(const ImportRequest& request, const ForeignArchive& archive,
-                                      std::vector<std::string>& news) const {
-    double size = 0;
-    const double largest = largest_grain();
-    const std::size_t first = scene.meshes.size() - archive.walls().size();
-    for (std::size_t m = first; m < scene.meshes.size(); ++m) {
-        const MeshFacts& facts = scene.meshes[m].surface->facts();
-        size = std::max(size, (facts.high - facts.low).maxCoeff());
-    }
-    if (archive.walls().empty() || size >= largest) return;
-    news.push_back(fmt::format(
-        "{}: its walls are {:.4g} m large, smaller than a grain ({:.4g} m); see --units, which is about "
-        "grains and walls, and --walls-scale, which is about walls alone",
-        request.from.string(), size, largest));
-}
-
 Import::Files::Files(const ImportRequest& request, const ForeignArchive& archive, const ImportSurvey& survey,
                      std::vector<std::string>& news)
     : walls(write_import_walls(request.folder, archive, request.reading, news)),
@@ -190,8 +126,7 @@ Import::Files::Files(const ImportRequest& request, const ForeignArchive& archive
       supply(archive.supply()),
       bodies(archive.world().bodies.size()),
       places(survey.places) {
-    doubt_grains(request, archive, news);
-    doubt_walls(request, archive, news);
+    for (std::string& doubt : doubts_about_sizes(scene, request, archive)) news.push_back(std::move(doubt));
     if (!ImportWear::known(archive)) return;
     wear.emplace(request.folder / "fields.nc", scene, archive, request.program_version);
     for (std::string& line : wear->news()) news.push_back(std::move(line));
@@ -202,10 +137,10 @@ Import::Import(ImportRequest request, bool at_end)
       archive_(request_.from, request_.reading, ForeignArchive::Looks::first),
       at_end_(at_end),
       depends_on_box_(!archive_.world().cell && request_.reading.container.empty()) {
-    if (known() == 0) throw UserError(fmt::format("{}: holds no frame", request_.from.string()));
+    if (known() == 0) throw UserError("{}: holds no frame", request_.from.string());
     // The first grains say what the columns mean.
     if (!at_end && archive_.world().most_grains == 0)
-        throw UserError(fmt::format("{}: holds no grain yet", request_.from.string()));
+        throw UserError("{}: holds no grain yet", request_.from.string());
 }
 
 Import::~Import() = default;
@@ -300,16 +235,15 @@ void Import::tell_of_box() {
 
 std::vector<std::string> Import::later_news() const {
     std::vector<std::string> lines = archive_.news_of_frames();
-    std::erase_if(lines, [&](const std::string& line) {
-        return std::find(run_.news.begin(), run_.news.end(), line) != run_.news.end();
-    });
+    std::erase_if(lines, [&](const std::string& line) { return contains(run_.news, line); });
     return lines;
 }
 
 // The scene's text also says where grains were and how many there were at most.
 void Import::finish(const ImportSurvey& survey) {
-    std::vector<std::string> said;
-    const std::string text = import_scene_text(archive_, survey, request_.reading, files_->walls, said);
+    std::vector<std::string> told_before;
+    const std::string text =
+        import_scene_text(archive_, survey, request_.reading, files_->walls, told_before);
     if (text != files_->scene_text) {
         const Scene scene = written_and_read(text, request_);
         // Refuses what cannot be.
@@ -335,8 +269,8 @@ Imported Import::run() {
         begin(guess, false);
         survey_ = read_all(guess);
         if (!files_)
-            throw UserError(fmt::format("{}: changed while it was read; try it again once it is whole",
-                                        request_.from.string()));
+            throw UserError("{}: changed while it was read; try it again once it is whole",
+                            request_.from.string());
     }
     finish(survey_);
     return run_;
@@ -351,8 +285,8 @@ std::array<std::pair<std::int64_t, double>, 2> Import::ends() const {
 void Import::grow() {
     if (!archive_.grow() && files_) return;
     if (files_ && archive_.world().bodies.size() != files_->bodies)
-        throw RunError(fmt::format("{}: its walls come apart, as they did not before; begin again",
-                                   request_.from.string()));
+        throw RunError("{}: its walls come apart, as they did not before; begin again",
+                       request_.from.string());
     const StateSupply now = archive_.supply();
     // A single moment does not say how long a step is.
     const bool same = files_ && next_ > 1 && ends() == ends_ && now.velocities == files_->supply.velocities &&
@@ -379,9 +313,8 @@ bool Import::take_next() {
     if (!files_ || next_ == known()) return false;
     archive_.take_types(next_);
     if (archive_.types() != files_->types)
-        throw RunError(
-            fmt::format("{}: has a type that the frames before lacked; name all types by --species",
-                        request_.from.string()));
+        throw RunError("{}: has a type that the frames before lacked; name all types by --species",
+                       request_.from.string());
     State frame = archive_.grains(next_++);
     survey_.add(frame, archive_.types(), archive_.world());
     if (survey_.places > files_->places || (survey_.masses && !files_->masses))

@@ -347,8 +347,9 @@ class StudyVerb final : public Verb {
         };
         const auto complete = count(MemberResult::Status::complete),
                    failed = count(MemberResult::Status::failed);
-        tell_gaps(study, reporter);
-        tell_warnings(study, reporter);
+        for (const std::string& line : study_warnings(study, members_, results_)) reporter.warning(line);
+        if (!study.measures.empty() && !study.has_intervals() && reporter.stop_signal() == 0)
+            reporter.warning("one seed for each setting: there are no intervals; seeds = 5 gives some");
         const std::string charts =
             charts_ > 0 ? fmt::format("{} in charts/, ", counted(charts_, "chart")) : "";
         reporter.info(fmt::format("{} of {} members are complete{}; wrote study.csv, {}index.html", complete,
@@ -361,45 +362,6 @@ class StudyVerb final : public Verb {
             return signal_base + reporter.stop_signal();
         }
         return failed > 0 ? 1 : 0;
-    }
-
-    // Passes on what members warned of, and says where a study has no intervals.
-    void tell_warnings(const Study& study, Reporter& reporter) const {
-        constexpr std::size_t most = 3;
-        const std::vector<SharedWarning> all = shared_warnings(results_);
-        for (std::size_t i = 0; i < std::min(all.size(), most); ++i)
-            reporter.warning(
-                fmt::format("{}: {}", members_text(study, members_, all[i].members), all[i].text));
-        if (all.size() > most)
-            reporter.warning(fmt::format("{} more of the members are in index.html",
-                                         counted(all.size() - most, "warning")));
-        if (!study.measures.empty() && !study.has_intervals() && reporter.stop_signal() == 0)
-            reporter.warning("one seed for each setting: there are no intervals; seeds = 5 gives some");
-    }
-
-    // Warns of members without a value: their settings have no mean.
-    void tell_gaps(const Study& study, Reporter& reporter) const {
-        for (std::size_t i = 0; i < study.measures.size(); ++i) {
-            std::size_t complete = 0, gaps = 0;
-            for (const MemberResult& result : results_)
-                if (result.status == MemberResult::Status::complete)
-                    ++complete, gaps += std::isnan(result.values[i]) ? 1 : 0;
-            if (gaps == 0) continue;
-            const bool median = study.measures[i].average == SeedAverage::median;
-            reporter.warning(
-                fmt::format("{} came up in {} of {} complete members; settings in which it {} have no {}. {}",
-                            study.measures[i].name, complete - gaps, complete,
-                            median ? "came up in half or less" : "did not come up everywhere",
-                            median ? "median" : "mean", remedy_for_gaps(study.measures[i])));
-        }
-    }
-
-    static std::string remedy_for_gaps(const StudyMeasure& measure) {
-        if (!measure.reduction.has_threshold()) return "Its column is empty there, or its window has no row";
-        return fmt::format(
-            "The threshold was not reached; a longer run.duration{} reduce = \"share\"{} may tell more",
-            measure.average == SeedAverage::median ? " or" : ",",
-            measure.average == SeedAverage::median ? "" : " or average = \"median\"");
     }
 
     std::filesystem::path file_;

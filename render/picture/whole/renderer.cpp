@@ -214,9 +214,7 @@ void Renderer::Impl::copy_words(Picture& into) const {
         for (const Rectangle& part : overlay.moving()) copy(words, part, into);
         return;
     }
-    copy(words, layout.first, into);
-    copy(words, layout.second, into);
-    copy(words, layout.caption, into);
+    for (const Rectangle& part : {layout.first, layout.second, layout.caption}) copy(words, part, into);
     into.still = may_stay ? overlay.still() : 0;
     into.moving = overlay.moving();
     into.moving.push_back(port);

@@ -1,9 +1,13 @@
 #include "render/app/study/results/warnings.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <map>
+
+#include "engine/base/counted.hpp"
 
 namespace grainreel {
 namespace {
@@ -57,6 +61,33 @@ struct Group {
     }
 };
 
+std::string remedy_for_gaps(const StudyMeasure& measure) {
+    if (!measure.reduction.has_threshold()) return "Its column is empty there, or its window has no row";
+    return fmt::format(
+        "The threshold was not reached; a longer run.duration{} reduce = \"share\"{} may tell more",
+        measure.average == SeedAverage::median ? " or" : ",",
+        measure.average == SeedAverage::median ? "" : " or average = \"median\"");
+}
+
+// A line for each measure to which some complete members have no value.
+std::vector<std::string> gaps_of(const Study& study, const std::vector<MemberResult>& results) {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < study.measures.size(); ++i) {
+        std::size_t complete = 0, gaps = 0;
+        for (const MemberResult& result : results)
+            if (result.status == MemberResult::Status::complete)
+                ++complete, gaps += std::isnan(result.values[i]) ? 1 : 0;
+        if (gaps == 0) continue;
+        const bool median = study.measures[i].average == SeedAverage::median;
+        lines.push_back(
+            fmt::format("{} came up in {} of {} complete members; settings in which it {} have no {}. {}",
+                        study.measures[i].name, complete - gaps, complete,
+                        median ? "came up in half or less" : "did not come up everywhere",
+                        median ? "median" : "mean", remedy_for_gaps(study.measures[i])));
+    }
+    return lines;
+}
+
 }  // namespace
 
 std::vector<SharedWarning> shared_warnings(const std::vector<MemberResult>& results) {
@@ -90,6 +121,19 @@ std::string members_text(const Study& study, const std::vector<Member>& members,
                      : fmt::format("{}seed {}", setting.empty() ? "" : ", ", *members[m].seed);
     }
     return text;
+}
+
+std::vector<std::string> study_warnings(const Study& study, const std::vector<Member>& members,
+                                        const std::vector<MemberResult>& results) {
+    constexpr std::size_t most = 3;
+    std::vector<std::string> lines = gaps_of(study, results);
+    const std::vector<SharedWarning> all = shared_warnings(results);
+    for (std::size_t i = 0; i < std::min(all.size(), most); ++i)
+        lines.push_back(fmt::format("{}: {}", members_text(study, members, all[i].members), all[i].text));
+    if (all.size() > most)
+        lines.push_back(
+            fmt::format("{} more of the members are in index.html", counted(all.size() - most, "warning")));
+    return lines;
 }
 
 }  // namespace grainreel
