@@ -206,7 +206,7 @@ void complete_run_json(const std::filesystem::path& path, const std::string& pag
     std::ifstream file = read_plain(path);
     Json document = Json::parse(file, nullptr, false);
     if (!fault.empty() || !document.is_object() || !document["written"].is_object())
-        throw RunError(fmt::format("{}: cannot be read", path.string()));
+        throw RunError("{}: cannot be read", path.string());
     document["status"] = to_string(RunStatus::complete);
     document["exit_status"] = 0;
     document["written"]["page"] = text_or_null(page);
@@ -222,7 +222,7 @@ std::string checksum_of_file(const std::filesystem::path& path) {
     std::array<char, 1 << 16> bytes{};
     while (file.read(bytes.data(), bytes.size()), file.gcount() > 0)
         XXH64_update(state.get(), bytes.data(), static_cast<std::size_t>(file.gcount()));
-    if (!file.eof()) throw RunError(fmt::format("{}: cannot be read", path.string()));
+    if (!file.eof()) throw RunError("{}: cannot be read", path.string());
     return fmt::format("{:016x}", XXH64_digest(state.get()));
 }
 

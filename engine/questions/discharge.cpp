@@ -110,9 +110,8 @@ Answer discharge_answer(const StoredRun& run) {
     const Scene& scene = run.known_scene();
     const std::optional<Discharge> flow = discharge_in(run.path(), scene);
     if (!flow)
-        throw UserError(
-            fmt::format("{}: fewer than {} grains have left, or none can; ask a run with an outlet",
-                        run.path().string(), least_times));
+        throw UserError("{}: fewer than {} grains have left, or none can; ask a run with an outlet",
+                        run.path().string(), least_times);
     const auto known = [](double value) { return std::isfinite(value) ? AnswerCell(value) : AnswerCell(); };
     const auto maybe = [](const std::optional<double>& value) {
         return value ? AnswerCell(*value) : AnswerCell();

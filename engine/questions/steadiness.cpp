@@ -321,11 +321,11 @@ Estimate slope_estimate(const std::vector<double>& times, const std::vector<doub
 std::shared_ptr<const MeasureTable> table_with(const StoredRun& run, const std::string& column) {
     const std::shared_ptr<const MeasureTable> table = run.measures();
     if (table == nullptr && run.kind() == StoredRun::Kind::foreign)
-        throw UserError(fmt::format(
+        throw UserError(
             "{}: is of another program, of which there is no measures.csv; --where \"radius > 0\" "
             "--over-time "
             "--mean kinetic_energy tells energies over time, and the page of `report` draws kinetic_J",
-            run.path().string()));
+            run.path().string());
     if (table == nullptr)
         throw UserError("{}: has no measures.csv with rows; ask a run's folder", run.path().string());
     const std::vector<std::string>& columns = table->columns();

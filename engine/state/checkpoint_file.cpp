@@ -150,7 +150,7 @@ void write_checkpoint_file(const std::filesystem::path& path, const std::string&
     if (!file || failed) {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
-        throw RunError(fmt::format("{}: the checkpoint cannot be written; is the disk full?", path.string()));
+        throw RunError("{}: the checkpoint cannot be written; is the disk full?", path.string());
     }
 }
 

@@ -114,10 +114,10 @@ std::optional<Vocabulary::Word> GrainVocabulary::find(std::string_view name) con
         const GrainColumn& column = grain_columns()[*k];
         const bool weighs = column.dimension == Dimension::mass || column.dimension == Dimension::energy;
         if (weighs && !masses_known(snapshot_))
-            throw UserError(fmt::format(
+            throw UserError(
                 "'{}' needs masses, and these files say no density; give it by --density, in kg/m3 (glass: "
                 "2500)",
-                name));
+                name);
         if (!snapshot_.has(column.needs)) throw UserError(why_lacking(name, column.needs));
         const ValueType::Kind kind = column.is_species ? ValueType::Kind::species : ValueType::Kind::number;
         return Word{{kind, powers_of(column.dimension)}, std::nullopt, static_cast<int>(*k)};

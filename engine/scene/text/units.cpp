@@ -191,8 +191,8 @@ const DimensionText& text_of(Dimension dimension) {
 double parse_quantity(std::string_view text, Dimension dimension, const std::string& example) {
     const DimensionText& wanted = text_of(dimension);
     const auto fail = [&](const std::string& what) -> UserError {
-        return UserError(fmt::format("must be {}, but {}; write for example {}", wanted.noun, what,
-                                     example.empty() ? wanted.example : example));
+        return UserError("must be {}, but {}; write for example {}", wanted.noun, what,
+                         example.empty() ? wanted.example : example);
     };
     const std::string_view all = trimmed(text);
     const std::string shown = excerpt(text);
@@ -202,9 +202,9 @@ double parse_quantity(std::string_view text, Dimension dimension, const std::str
         throw fail(fmt::format("\"{}\" does not begin with a number", shown));
     const std::string unit_text(trimmed(all.substr(static_cast<std::size_t>(end - all.data()))));
     if (const std::optional<std::string> mended = with_decimal_point(all))
-        throw UserError(fmt::format(
+        throw UserError(
             "must be {}, but \"{}\" has a comma in its number; write {}", wanted.noun, shown,
-            std::isdigit(static_cast<unsigned char>(mended->back())) ? *mended : '"' + *mended + '"'));
+            std::isdigit(static_cast<unsigned char>(mended->back())) ? *mended : '"' + *mended + '"');
     if (dimension == Dimension::number)
         throw fail(unit_text.empty() ? fmt::format("\"{}\" is text; leave the quotes out", shown)
                                      : fmt::format("\"{}\" has a unit", shown));

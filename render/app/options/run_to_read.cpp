@@ -76,11 +76,11 @@ void refuse_other_folder(const fs::path& path) {
     constexpr std::size_t most = 5;
     const std::string more = runs.size() > most ? fmt::format(" and {} more", runs.size() - most) : "";
     if (!runs.empty())
-        throw UserError(fmt::format(
+        throw UserError(
             "{}: is no folder of a run; name one of the runs in it: {}{}", path.string(),
             fmt::join(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(std::min(most, runs.size())),
                       ", "),
-            more));
+            more);
     for (const fs::path& folder : inside)
         if (!fs::exists(folder / "film_times.csv", ignored) && is_foreign(folder))
             throw UserError(

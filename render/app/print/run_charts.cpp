@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "engine/base/error.hpp"
+#include "engine/base/lists.hpp"
 #include "engine/base/plain_file.hpp"
 #include "engine/base/text.hpp"
 #include "engine/files/frames/saved_scene.hpp"
@@ -42,15 +43,12 @@ struct MeasuredRun {
     std::string name;
 
     // The index of a column; none when the table lacks it.
-    std::optional<std::size_t> column(const std::string& wanted) const {
-        const auto& all = table->columns();
-        const auto found = std::find(all.begin(), all.end(), wanted);
-        if (found == all.end()) return std::nullopt;
-        return static_cast<std::size_t>(found - all.begin());
+    std::optional<std::size_t> column(const std::string& title) const {
+        return place_in(table->columns(), title);
     }
-    std::vector<double> values(const std::string& wanted) const {
-        const auto at = column(wanted);
-        return at ? table->values(*at, 0, table->rows()) : std::vector<double>();
+    std::vector<double> values(const std::string& title) const {
+        const auto place = column(title);
+        return place ? table->values(*place, 0, table->rows()) : std::vector<double>();
     }
 };
 
@@ -65,10 +63,8 @@ std::deque<MeasuredRun> measured_runs(const std::vector<fs::path>& folders,
         const fs::path file = run.folder / "measures.csv";
         run.table = read_measures_file(file).table;
         if (!run.table || run.table->rows() == 0)
-            throw UserError(
-                fmt::format("{}: is missing or empty, so there is nothing to chart", file.string()));
-        if (!run.column("time_s"))
-            throw UserError(fmt::format("{}:1: lacks the column time_s", file.string()));
+            throw UserError("{}: is missing or empty, so there is nothing to chart", file.string());
+        if (!run.column("time_s")) throw UserError("{}:1: lacks the column time_s", file.string());
         const std::size_t k = to_name.size();
         to_name.push_back({run.folder, run.scene, k < given.size() ? given[k] : ""});
     }
@@ -85,7 +81,7 @@ bool has_values(const std::deque<MeasuredRun>& runs, const std::string& measure)
 }
 
 void add_once(std::vector<std::string>& names, const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (!contains(names, name)) names.push_back(name);
 }
 
 // Names of the measures to draw: the wanted ones; for "all", all that have values; if none is wanted, those
@@ -107,16 +103,16 @@ std::vector<std::string> chosen(const std::deque<MeasuredRun>& runs, const std::
             const bool known = std::any_of(runs.begin(), runs.end(),
                                            [&](const MeasuredRun& run) { return run.column(name); });
             if (!known)
-                throw UserError(fmt::format("--measures {}: no such column; {} has {}", excerpt(name),
-                                            (runs.front().folder / "measures.csv").string(),
-                                            fmt::join(runs.front().table->columns(), ", ")));
+                throw UserError("--measures {}: no such column; {} has {}", excerpt(name),
+                                (runs.front().folder / "measures.csv").string(),
+                                fmt::join(runs.front().table->columns(), ", "));
             add_once(names, name);
         }
     if (names.empty())
         throw UserError(
-            fmt::format("{}: no measure changes, so the page has no charts; name some with "
-                        "--measures, or all",
-                        runs.front().folder.string()));
+            "{}: no measure changes, so the page has no charts; name some with "
+            "--measures, or all",
+            runs.front().folder.string());
     return names;
 }
 
@@ -135,10 +131,10 @@ std::array<double, 2> span_of(const std::deque<MeasuredRun>& runs, const std::st
             if (!span) span = {value, value};
             span = {std::min((*span)[0], value), std::max((*span)[1], value)};
         }
-    std::array<double, 2> found = span.value_or(std::array<double, 2>{0, 1});
+    std::array<double, 2> range = span.value_or(std::array<double, 2>{0, 1});
     for (const MeasuredRun& run : runs)
-        if (axis_of_column(run.scene, measure).from_zero) found[0] = std::min(0.0, found[0]);
-    return found;
+        if (axis_of_column(run.scene, measure).from_zero) range[0] = std::min(0.0, range[0]);
+    return range;
 }
 
 // The axis of a measure, in a unit that suits the largest value.
@@ -236,7 +232,7 @@ std::vector<fs::path> draw_run_charts(const std::vector<fs::path>& folders,
     const std::vector<std::string> names = chosen(runs, measures);
     std::error_code failure;
     if (!fs::create_directories(folder, failure) && failure)
-        throw UserError(fmt::format("--charts {}: cannot be made ({})", folder.string(), failure.message()));
+        throw UserError("--charts {}: cannot be made ({})", folder.string(), failure.message());
     const RunCharts charts(runs, paper, folder);
     std::vector<fs::path> files;
     for (const std::string& name : names)
@@ -287,10 +283,10 @@ std::string curve_table(std::size_t number, const std::vector<double>& x, const 
     const std::string last = name.empty() ? "" : "," + cell(name);
     bool gap = true;  // the last line is empty; a second empty line would begin another data set
     for (const std::size_t row : shown_rows(y)) {
-        const bool there = std::isfinite(x[row]) && std::isfinite(y[row]);
-        if (there) text += fmt::format("{},{},{}{}\n", number, x[row], y[row], last);
-        if (!there && !gap) text += "\n";
-        gap = !there;
+        const bool known = std::isfinite(x[row]) && std::isfinite(y[row]);
+        if (known) text += fmt::format("{},{},{}{}\n", number, x[row], y[row], last);
+        if (!known && !gap) text += "\n";
+        gap = !known;
     }
     return text;
 }

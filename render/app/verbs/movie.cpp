@@ -166,9 +166,8 @@ class Movie final : public Verb {
         if (!no_page_) film_.page = page_of_ended_run();
         use_camera_file(camera_, sets_);
         if (std::error_code none; std::filesystem::is_directory(scene_, none) && is_foreign(scene_))
-            throw UserError(
-                fmt::format("{}: holds files of another program, which cannot be run; `render {}` draws them",
-                            scene_.string(), scene_.string()));
+            throw UserError("{}: holds files of another program, which cannot be run; `render {}` draws them",
+                            scene_.string(), scene_.string());
         const FilmedScene scene = read_filmed_scene(scene_, sets_, measurable_in);
         const Plan plan = plan_with_film(scene);
         keep_camera_file(camera_, scene.film.camera);

@@ -170,8 +170,8 @@ class Report final : public Verb {
     int run(Reporter& reporter) override {
         take_comparison();
         if (runs_.size() > most_runs)
-            throw UserError(fmt::format("report: {} runs do not fit side by side; give {} at most",
-                                        runs_.size(), most_runs));
+            throw UserError("report: {} runs do not fit side by side; give {} at most", runs_.size(),
+                            most_runs);
         check_paper(paper_);
         if (!out_.empty()) check_out(out_);
         if (runs_.size() > 1 && out_.empty()) out_ = "side_by_side.html";
@@ -208,8 +208,8 @@ class Report final : public Verb {
         if (shown.folders.empty()) return;
         for (const fs::path& run : shown.folders)
             if (!is_there(run / "scene.toml"))
-                throw UserError(fmt::format("{}: shows the run {}, which is no longer there", folder.string(),
-                                            run.string()));
+                throw UserError("{}: shows the run {}, which is no longer there", folder.string(),
+                                run.string());
         runs_ = std::move(shown.folders);
         beside_.of_all = {folder, shown.title};
         beside_.names = std::move(shown.captions);
@@ -254,15 +254,15 @@ class Report final : public Verb {
         check_typed("--out", out.string());
         check_folder_around(out, "--out " + out.string());
         if (is_folder(out))
-            throw UserError(fmt::format("--out {}: is a folder; name a file, as in {}", out.string(),
-                                        (out / kPageName).string()));
+            throw UserError("--out {}: is a folder; name a file, as in {}", out.string(),
+                            (out / kPageName).string());
         if (out.extension() != ".html")
-            throw UserError(fmt::format("--out {}: a page's name ends in .html", out.string()));
+            throw UserError("--out {}: a page's name ends in .html", out.string());
         if (is_there(out) && !is_page(out))
             throw UserError(
-                fmt::format("--out {}: exists already and is no page of this program; choose another "
-                            "name, or remove it",
-                            out.string()));
+                "--out {}: exists already and is no page of this program; choose another "
+                "name, or remove it",
+                out.string());
     }
 
     // Whether the file's first lines name this program as what made it (page.html).

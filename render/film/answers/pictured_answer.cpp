@@ -51,10 +51,10 @@ PixelPicker::PixelPicker(const Snapshot& s, const FilmedScene& scene, double fil
 Ray PixelPicker::ray(double at_x, double at_y) const {
     const double x = at_x - view_.port.x, y = at_y - view_.port.y;
     if (!(x >= 0 && y >= 0 && x < view_.port.width && y < view_.port.height))
-        throw UserError(fmt::format(
+        throw UserError(
             "{:g},{:g} is outside the part of the picture that shows the bed, from {},{} to {},{}", at_x,
             at_y, view_.port.x, view_.port.y, view_.port.x + view_.port.width - 1,
-            view_.port.y + view_.port.height - 1));
+            view_.port.y + view_.port.height - 1);
     const double right = (x + 0.5 - 0.5 * view_.port.width) / view_.focal;
     const double up = (0.5 * view_.port.height - y - 0.5) / view_.focal;
     const Vec3 aside = right * view_.right + up * view_.up;
@@ -109,11 +109,9 @@ FilmedScene scene_of_moment(FilmedScene scene, const Snapshot& snapshot, const A
 }  // namespace
 
 void check_picture_file(const std::filesystem::path& file) {
-    if (file.extension() != ".png")
-        throw UserError(fmt::format("--png {}: name a file that ends in .png", file.string()));
+    if (file.extension() != ".png") throw UserError("--png {}: name a file that ends in .png", file.string());
     check_folder_around(file, "--png " + file.string());
-    if (is_there(file))
-        throw UserError(fmt::format("--png {}: exists already; choose another name", file.string()));
+    if (is_there(file)) throw UserError("--png {}: exists already; choose another name", file.string());
 }
 
 void draw_answer(const Snapshot& snapshot, const FilmedScene& filmed, const AnswerMarks& marks,

@@ -44,13 +44,13 @@ void make_panels(const CompareRequest& what, Comparison& all) {
     if (what.captions) captions = all.captions = split(*what.captions);
     for (const std::string& caption : captions)
         if (letters_in(caption) > kMostLetters)
-            throw UserError(fmt::format("--captions: one has {} characters, and the most are {}; shorten it",
-                                        letters_in(caption), kMostLetters));
+            throw UserError("--captions: one has {} characters, and the most are {}; shorten it",
+                            letters_in(caption), kMostLetters);
     if (captions.size() != scenes.size())
         throw UserError(
-            fmt::format("--captions: has {} parts between its bars for {} panels; write one for each, "
-                        "as in \"Γ = 1|Γ = 3\"",
-                        captions.size(), scenes.size()));
+            "--captions: has {} parts between its bars for {} panels; write one for each, "
+            "as in \"Γ = 1|Γ = 3\"",
+            captions.size(), scenes.size());
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         all.panels.push_back({scenes[i], captions[i], {}});
         // A still has no words about how fast it plays.
@@ -69,9 +69,8 @@ void make_panels(const CompareRequest& what, Comparison& all) {
                 panel.caption += fmt::format(", wall motion drawn {:.3g}×", panel.scene.film.exaggerate);
     const PanelLayout layout = layout_of(all.panels, all.film.film);
     if (layout.places.empty())
-        throw UserError(fmt::format("{}: {}x{} is too small for {} panels; make it larger",
-                                    all.film.where("film.size"), all.film.film.width, all.film.film.height,
-                                    scenes.size()));
+        throw UserError("{}: {}x{} is too small for {} panels; make it larger", all.film.where("film.size"),
+                        all.film.film.width, all.film.film.height, scenes.size());
     warn_of_single_moments(all);
     warn_of_pace(all);
     warn_of_what_is_left_out(layout, all);
@@ -211,8 +210,8 @@ void take_moments_of_record(Comparison& all) {
     for (const State& moment : run.moments())
         if (moment.time >= from - room && moment.time <= to + room) moments.push_back(moment);
     if (moments.empty())
-        throw UserError(fmt::format("{}: shares no time with the others, which show {:.6g} to {:.6g} s",
-                                    run.path().string(), from, to));
+        throw UserError("{}: shares no time with the others, which show {:.6g} to {:.6g} s",
+                        run.path().string(), from, to);
     moments = alike(moments, common_periods(all));
     for (const State& moment : moments) all.pictures.instants.push_back({moment.time, 0});
     const Drive& drive = all.members[all.reference]->scene().drive;
@@ -264,9 +263,9 @@ void take_one(double at, Comparison& all) {
     for (const auto& member : all.members) room = std::max(room, 1.001 * member->clock().step);
     if (at < common.from - room || at > common.to + room)
         throw UserError(
-            fmt::format("--at: {:.6g} s is outside the time that all show, which goes from {:.6g} "
-                        "to {:.6g} s",
-                        at, common.from, common.to));
+            "--at: {:.6g} s is outside the time that all show, which goes from {:.6g} "
+            "to {:.6g} s",
+            at, common.from, common.to);
     at = std::clamp(at, common.from, common.to);
     std::vector<Instant>& instants = all.pictures.instants;
     const std::vector<Instant> film = instants;

@@ -117,9 +117,9 @@ std::vector<Stretch> stretches_of(const FilmedScene& scene, const Clock& clock, 
             stretches.push_back(locked_stretch(segments[i], std::llround(start / clock.step), stop, clock));
         } else {
             throw UserError(
-                fmt::format("{}: film segment {} is locked to the drive's phase, but nothing is driven; "
-                            "give the scene a drive, or make it a motion segment",
-                            scene.where(fmt::format("film.segment[{}]", i)), i + 1));
+                "{}: film segment {} is locked to the drive's phase, but nothing is driven; "
+                "give the scene a drive, or make it a motion segment",
+                scene.where(fmt::format("film.segment[{}]", i)), i + 1);
         }
         Stretch& stretch = stretches.back();
         stretch.segment = static_cast<int>(i);

@@ -93,9 +93,9 @@ void check_columns(const FilmedScene& scene, const StoredRun& run) {
         if (name.empty() || run.measures()->find(name)) return;
         if (run.kind() == Kind::imported && (name == "kinetic_J" || name == "rotational_J"))
             throw UserError(
-                fmt::format("{}: {} {}, which needs masses, and the files say none; give them by --density "
-                            "(2500 kg/m3 is glass), or take that out of the film",
-                            scene.title, what, name));
+                "{}: {} {}, which needs masses, and the files say none; give them by --density "
+                "(2500 kg/m3 is glass), or take that out of the film",
+                scene.title, what, name);
         if (run.kind() == Kind::imported)
             throw UserError("{}: {} {}, which is known of runs of ours alone; take that out of the film",
                             scene.title, what, name);

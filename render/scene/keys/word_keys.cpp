@@ -149,9 +149,9 @@ void read_word_kinds(Document& document, const Scene&, const std::string& path, 
         const auto* const kind = std::find_if(std::begin(word_kinds), std::end(word_kinds),
                                               [&](const WordKind& known) { return known.name == names[i]; });
         if (kind == std::end(word_kinds))
-            throw UserError(fmt::format("{}: 'show' has \"{}\", which is none of the words: {}",
-                                        document.place(fmt::format("{}[{}]", path, i)), excerpt(names[i]),
-                                        fmt::join(word_kind_names(), ", ")));
+            throw UserError("{}: 'show' has \"{}\", which is none of the words: {}",
+                            document.place(fmt::format("{}[{}]", path, i)), excerpt(names[i]),
+                            fmt::join(word_kind_names(), ", "));
         film.word_kinds.*kind->member = true;
     }
 }

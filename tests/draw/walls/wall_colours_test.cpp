@@ -34,14 +34,26 @@ struct Plate {
         TriangleMesh square{
             {{-kHalf, -kHalf, 0}, {kHalf, -kHalf, 0}, {kHalf, kHalf, 0}, {-kHalf, kHalf, 0}, {0, 0, 0}},
             {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
-        MeshFacts facts;
-        mend(square, facts);
         SceneMesh& mesh = scene.meshes.emplace_back();
         mesh.name = "plate";
         mesh.low = {-kHalf, -kHalf, 0}, mesh.high = {kHalf, kHalf, 0};
-        mesh.surface.of = std::make_shared<const Surface>(square, facts, "square");
+        become(square);
         scene.film.look.walls.colour = FilmWalls::Colour::pressure;
         scene.film.look.walls.range = {10, 1000};
+    }
+    void become(TriangleMesh mesh) {
+        MeshFacts facts;
+        mend(mesh, facts);
+        scene.meshes[0].surface.of = std::make_shared<const Surface>(mesh, facts, "plate");
+    }
+    // A strip of thin triangles; its corners come in pairs, one of each side.
+    void become_strip(const std::vector<Vec3>& corners) {
+        TriangleMesh strip{corners, {}};
+        for (int k = 0; k + 3 < static_cast<int>(corners.size()); k += 2) {
+            strip.triangles.push_back({k, k + 2, k + 1});
+            strip.triangles.push_back({k + 1, k + 2, k + 3});
+        }
+        become(std::move(strip));
     }
     Vec3 middle(std::size_t k) const {
         const Surface& surface = *scene.meshes[0].surface;
@@ -121,17 +133,11 @@ TEST(WallColours, ATriangleHasTheColourOfItsPressure) {
 // A strip of long thin triangles: each shares its wear with its neighbours, so that no spikes are seen.
 TEST(WallColours, ThinTrianglesShareTheirWear) {
     Plate plate;
-    TriangleMesh strip;
     constexpr int kAlong = 12;
+    std::vector<Vec3> corners;
     for (int k = 0; k <= kAlong; ++k)
-        for (const double y : {0.0, 0.1}) strip.vertices.emplace_back(0.01 * k, y, 0);
-    for (int k = 0; k < kAlong; ++k) {
-        strip.triangles.push_back({2 * k, 2 * k + 2, 2 * k + 1});
-        strip.triangles.push_back({2 * k + 1, 2 * k + 2, 2 * k + 3});
-    }
-    MeshFacts facts;
-    mend(strip, facts);
-    plate.scene.meshes[0].surface.of = std::make_shared<const Surface>(strip, facts, "strip");
+        for (const double y : {0.0, 0.1}) corners.emplace_back(0.01 * k, y, 0);
+    plate.become_strip(corners);
     SceneMeshes meshes(plate.scene);
     std::vector<double> pressure;
     for (int t = 0; t < 2 * kAlong; ++t) pressure.push_back(t % 4 == 0 ? 900 : 15);
@@ -147,17 +153,11 @@ TEST(WallColours, ThinTrianglesShareTheirWear) {
 // the strip no pixel differs much from the next.
 TEST(WallColours, ThinTrianglesBlendIntoEachOther) {
     Plate plate;
-    TriangleMesh strip;
     constexpr int kAlong = 10;
+    std::vector<Vec3> corners;
     for (int k = 0; k <= kAlong; ++k)
-        for (const double x : {-0.05, 0.05}) strip.vertices.emplace_back(x, 0.01 * k - 0.05, 0);
-    for (int k = 0; k < kAlong; ++k) {
-        strip.triangles.push_back({2 * k, 2 * k + 1, 2 * k + 2});
-        strip.triangles.push_back({2 * k + 1, 2 * k + 3, 2 * k + 2});
-    }
-    MeshFacts facts;
-    mend(strip, facts);
-    plate.scene.meshes[0].surface.of = std::make_shared<const Surface>(strip, facts, "strip");
+        for (const double x : {0.05, -0.05}) corners.emplace_back(x, 0.01 * k - 0.05, 0);
+    plate.become_strip(corners);
     std::vector<double> pressure;
     for (int t = 0; t < 2 * kAlong; ++t) pressure.push_back(t < kAlong ? 12 : 900);
     const Picture picture = Renderer(plate.scene, 1).draw(plate.frame(pressure, pressure), "");

@@ -25,12 +25,12 @@ namespace {
 
 // Which value of each variation the setting of that number has.
 std::vector<std::size_t> place_in_grid(const Study& study, std::size_t setting) {
-    std::vector<std::size_t> at(study.variations.size());
-    for (std::size_t i = at.size(); i-- > 0;) {
-        at[i] = setting % study.variations[i].values.size();
+    std::vector<std::size_t> places(study.variations.size());
+    for (std::size_t i = places.size(); i-- > 0;) {
+        places[i] = setting % study.variations[i].values.size();
         setting /= study.variations[i].values.size();
     }
-    return at;
+    return places;
 }
 
 // A hash of everything on which the numbers of a run depend, up to its end.
@@ -74,8 +74,8 @@ std::vector<MemberFile> files_of(const Scene& scene) {
     std::string place = study.file.string();
     for (std::size_t i = other.at.size(); i-- > 0;)
         if (one.at[i] != other.at[i]) place = study.variations[i].values[other.at[i]].place;
-    throw UserError(fmt::format("{}: the members {} and {} are the same run; leave one out", place,
-                                member_text(study, one), member_text(study, other)));
+    throw UserError("{}: the members {} and {} are the same run; leave one out", place,
+                    member_text(study, one), member_text(study, other));
 }
 
 // The scene as text, without its drive and all else that has no part in the packing.
@@ -103,10 +103,10 @@ std::size_t count_members(const Study& study, bool many_are_meant) {
     }
     const std::size_t limit = many_are_meant ? most_members : most_members_unasked;
     if (count > static_cast<double>(limit))
-        throw UserError(fmt::format(
+        throw UserError(
             "{}: the study would have {:.15g} members, more than {}; {}",
             longest != nullptr ? longest->place : study.file.string(), count, limit,
-            many_are_meant ? "split it in several" : "vary less, or say --yes when that is meant"));
+            many_are_meant ? "split it in several" : "vary less, or say --yes when that is meant");
     return static_cast<std::size_t>(count);
 }
 
@@ -264,16 +264,16 @@ std::vector<bool> members_of_variants(const Study& study, const std::vector<Memb
                                       const std::vector<std::string>& names) {
     if (names.empty()) return {};
     if (!study.has_variants())
-        throw UserError(fmt::format("--variant {}: {} has no [[variant]]; leave it out", names.front(),
-                                    study.file.string()));
+        throw UserError("--variant {}: {} has no [[variant]]; leave it out", names.front(),
+                        study.file.string());
     const Variation& variants = study.variations.front();
     std::vector<bool> chosen(variants.values.size());
     for (const std::string& name : names) {
         const auto variant = std::find_if(variants.values.begin(), variants.values.end(),
                                           [&](const Variation::Value& one) { return one.words == name; });
         if (variant == variants.values.end())
-            throw UserError(fmt::format("--variant {}: {} has no such variant; there are {}", name,
-                                        study.file.string(), variant_names(variants)));
+            throw UserError("--variant {}: {} has no such variant; there are {}", name, study.file.string(),
+                            variant_names(variants));
         chosen[static_cast<std::size_t>(variant - variants.values.begin())] = true;
     }
     std::vector<bool> of_members;
@@ -304,8 +304,8 @@ void EmptyColumns::add_setting(const Scene& scene) {
 void EmptyColumns::check() const {
     for (std::size_t k = 0; k < why_.size(); ++k)
         if (!why_[k].empty())
-            throw UserError(fmt::format("{}: '{}' has no value here: {}; measure another column",
-                                        study_.measures[k].place, study_.measures[k].column, why_[k]));
+            throw UserError("{}: '{}' has no value here: {}; measure another column",
+                            study_.measures[k].place, study_.measures[k].column, why_[k]);
 }
 
 void PackingSharing::add_setting(const Scene& scene, const Plan& plan) {
