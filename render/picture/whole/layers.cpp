@@ -46,6 +46,34 @@ void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team
     });
 }
 
+void lay_words(const WrittenWords& words, Picture& into) {
+    const Picture& from = words.picture;
+    const PictureLayout& layout = words.layout;
+    const auto copy = [&](const Rectangle& part) {
+        copy_part(from, part, into);
+        if (words.ground) words.ground->tint(part, into);
+    };
+    const bool fits = into.width == from.width && into.height == from.height;
+    if (!fits) {
+        into = from;
+        if (words.ground) words.ground->tint({0, 0, from.width, from.height}, into);
+    }
+    if (layout.plates) {
+        copy(layout.caption);
+        into.still = 0;
+        return;
+    }
+    const bool may_stay = !(words.ground && words.camera_moves);  // else the ground is another one each time
+    if (fits && may_stay && into.still == words.overlay.still()) {
+        for (const Rectangle& part : words.overlay.moving()) copy(part);
+        return;
+    }
+    for (const Rectangle& part : {layout.first, layout.second, layout.caption}) copy(part);
+    into.still = may_stay ? words.overlay.still() : 0;
+    into.moving = words.overlay.moving();
+    into.moving.push_back(layout.port);
+}
+
 namespace {
 
 // The largest value of linear light, and the largest number of moments: their product fits in a sum of 32

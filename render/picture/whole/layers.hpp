@@ -14,6 +14,7 @@
 #include "render/picture/gl/opengl.hpp"
 #include "render/picture/spheres/layer.hpp"
 #include "render/picture/spheres/light/wall_light.hpp"
+#include "render/picture/words/overlay.hpp"
 
 namespace grainreel {
 
@@ -35,6 +36,17 @@ struct Layers {
 
 // Puts the layers into the port's part of the picture.
 void compose(const Layers& layers, const Rectangle& port, Picture& picture, Team& team);
+
+// The words beside the port, as the overlay wrote them.
+struct WrittenWords {
+    const Picture& picture;
+    const Overlay& overlay;
+    const PictureLayout& layout;
+    const Ground* ground;  // it tints what lies beside the port; may be null
+    bool camera_moves;
+};
+// Copies them into a picture. One that has been drawn into before already has most of them.
+void lay_words(const WrittenWords& words, Picture& into);
 
 // Many moments in one picture, as a shutter that stays open sees them: their mean in linear light.
 class Exposure {

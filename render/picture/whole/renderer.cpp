@@ -120,7 +120,6 @@ struct Renderer::Impl {
               DrawTimes* times, PdfPage* page = nullptr);
     void draw_on_page(PdfPage& page, const Shot& frame, const std::string& playback, const View& view,
                       const Picture& drawn);
-    void copy_words(Picture& into) const;
     void draw_exposed(const Shot& frame, const View& view, Picture& into, DrawStopwatch& watch);
     void draw_moment(const Shot& frame, const Shot* marked, const View& view, Picture& into,
                      DrawStopwatch& watch);
@@ -150,7 +149,7 @@ void Renderer::Impl::draw(const Shot& frame, const std::string& playback, double
         overlay.write(words, frame, playback, view);
     if (ground && (path.moves() || !ground_stands)) ground->stand(view);
     ground_stands = true;
-    copy_words(into);
+    lay_words({words, overlay, layout, ground ? &*ground : nullptr, path.moves()}, into);
     meshes.colour_by(frame);
     watch.lap(&DrawTimes::overlay);
     if (frame.exposed.empty())
@@ -191,33 +190,6 @@ void Renderer::Impl::point_out(PointedOut what) {
     if (!ghost_painter) ghost_painter.emplace(scene, port.width, port.height, team, true);
     ghost_painter->paint_all_but(what.grains);
     solid = ShownGrains::only(scene, std::move(what.grains));
-}
-
-// Copies the words into a picture. One that has been drawn into before already has most of them.
-void Renderer::Impl::copy_words(Picture& into) const {
-    const auto copy = [this](const Picture& from, const Rectangle& part, Picture& to) {
-        copy_part(from, part, to);
-        if (ground) ground->tint(part, to);
-    };
-    const bool fits = into.width == words.width && into.height == words.height;
-    if (!fits) {
-        into = words;
-        if (ground) ground->tint({0, 0, words.width, words.height}, into);
-    }
-    if (layout.plates) {
-        copy(words, layout.caption, into);
-        into.still = 0;
-        return;
-    }
-    const bool may_stay = !(ground && path.moves());  // the ground is another one where the camera moves
-    if (fits && may_stay && into.still == overlay.still()) {
-        for (const Rectangle& part : overlay.moving()) copy(words, part, into);
-        return;
-    }
-    for (const Rectangle& part : {layout.first, layout.second, layout.caption}) copy(words, part, into);
-    into.still = may_stay ? overlay.still() : 0;
-    into.moving = overlay.moving();
-    into.moving.push_back(port);
 }
 
 // Draws all moments while the shutter is open. Each of them gets the marks of the frame itself.
