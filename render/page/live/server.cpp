@@ -166,11 +166,6 @@ WatchServer::~WatchServer() {
     MHD_stop_daemon(impl_->daemon);
 }
 
-unsigned WatchServer::connections() const {
-    const MHD_DaemonInfo* info = MHD_get_daemon_info(impl_->daemon, MHD_DAEMON_INFO_CURRENT_CONNECTIONS);
-    return info != nullptr ? info->num_connections : 0;
-}
-
 namespace {
 
 constexpr int waiting_at_most = 64;  // largest number of connections that are not accepted yet

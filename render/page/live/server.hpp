@@ -65,8 +65,6 @@ class WatchServer {
     WatchServer(const WatchServer&) = delete;
     WatchServer& operator=(const WatchServer&) = delete;
 
-    unsigned connections() const;
-
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
