@@ -69,7 +69,8 @@ TEST(ShippedStudies, AreFoundByNameWithTheirSceneAndPoints) {
     };
     const Ended drum = study("drum-mixing", "--dry-run");
     EXPECT_EQ(drum.status, 0) << drum.err;
-    EXPECT_THAT(drum.out, tells({"drum_mixing.toml", "output/drum_mixing"}));
+    EXPECT_THAT(drum.out, tells({"study", "drum_mixing.toml"}));
+    EXPECT_THAT(drum.out, tells({"folder", "output/drum_mixing"}));
     EXPECT_EQ(study("surface_waves_fine", "--collect").status, 0) << "its points are in the program too";
     EXPECT_TRUE(fs::exists(folder / "output/surface_waves_fine/study.toml"));
     const Ended again = run_program({"study", "output/surface_waves_fine/study.toml", "--dry-run"},
