@@ -67,9 +67,10 @@ TEST(ShippedStudies, AreFoundByNameWithTheirSceneAndPoints) {
     const auto study = [&](const char* name, const char* how) {
         return run_program({"study", name, how}, {.folder = folder.path()});
     };
-    const Ended drum = study("drum-mixing", "--dry-run");
-    EXPECT_EQ(drum.status, 0) << drum.err;
-    EXPECT_THAT(drum.out, tells({"drum_mixing.toml", "output/drum_mixing"}));
+    const Ended flight = study("bed-flight", "--dry-run");
+    EXPECT_EQ(flight.status, 0) << flight.err;
+    EXPECT_THAT(flight.out, tells({"study", "bed_flight.toml"}));
+    EXPECT_THAT(flight.out, tells({"folder", "output/bed_flight"}));
     EXPECT_EQ(study("surface_waves_fine", "--collect").status, 0) << "its points are in the program too";
     EXPECT_TRUE(fs::exists(folder / "output/surface_waves_fine/study.toml"));
     const Ended again = run_program({"study", "output/surface_waves_fine/study.toml", "--dry-run"},

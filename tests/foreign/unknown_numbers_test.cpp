@@ -240,11 +240,11 @@ TEST(UnknownCells, ATypeThatNoGrainHasIsTold) {
     ReadingOptions later, slip;
     later.species = {{"1", "small"}, {"3", "big"}};
     slip.species = {{"sand", "1"}};
-    EXPECT_THAT(news_of("1", later), tells({"--species", "a.csv", "3", "no grain", "type is"}));
-    EXPECT_THAT(news_of("glass", slip), tells({"--species", "a.csv", "sand", "no grain", "glass"}));
+    EXPECT_THAT(news_of("1", later), tells({"--species", "type 3", "no grain", "a.csv", "type is"}));
+    EXPECT_THAT(news_of("glass", slip), tells({"--species", "sand", "no grain", "a.csv", "glass"}));
     EXPECT_EQ(news_of("3", {}).find("no grain"), std::string::npos);
     EXPECT_THAT([&] { news_of("1", slip); },
-                testing::ThrowsMessage<UserError>(tells({"--species", "a.csv", "sand", "no grain"})));
+                testing::ThrowsMessage<UserError>(tells({"--species", "sand", "no grain", "a.csv"})));
 }
 
 TEST(UnknownCells, AWordInAColumnOfNumbersIsRefusedWithItsRow) {

@@ -119,7 +119,7 @@ TEST_F(PageCopyTest, ACopyThatIsTooLargeIsNotTaken) {
     const PageFilm film = page_film(scene, here.path(), {}, kNoPageProgress, 100);
     EXPECT_TRUE(film.bytes.empty());
     EXPECT_THAT(film.note.in_english(), tells({"smaller copy", "too large"}));
-    EXPECT_THAT(german(film.note), tells({"kleinere Kopie", "der Film hat"}));
+    EXPECT_THAT(german(film.note), tells({"Browser spielen", "kleinere Kopie"}));
 }
 
 TEST_F(PageCopyTest, WhereTheFilmWillDoThereIsNone) {

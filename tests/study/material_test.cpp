@@ -151,7 +151,7 @@ TEST(StudyParametersTable, HasTheSettlingOfMembersThatHaveRun) {
     results[1].settled = 0.375;
     results[3].settled = 0.5;
     EXPECT_THAT(parameters.table(study, members, results),
-                HasSubstr("\npacking.settled,s,,\"0.25, 0.375\",0.5,,,,,Simulated time"));
+                HasSubstr("\npacking.settled,s,,\"0.25, 0.375\",0.5,,,,,\"Simulated time"));
 }
 
 }  // namespace
