@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -180,17 +181,30 @@ bool goes_its_way(const Body& body) {
     return body.has_own_motion() || !body.velocity.isZero(0);
 }
 
-// The name of a wall that goes its own way and touches one of these two grains; empty if none does.
+// The name of a wall that goes its own way and presses one of these two grains, which touches something else
+// too, against that; empty if none does. A grain that is only hit flies off.
 std::string pressing_wall(const Surroundings& around, const ShowContacts& show, std::int32_t first,
                           std::int32_t second) {
-    std::int32_t pressing = -1;
+    struct Touched {
+        std::int32_t contacts = 0, wall = -1;
+    };
+    std::array<Touched, 2> touched;
     show([&](const ContactView& c) {
-        if (c.second >= 0 || (c.first != first && c.first != second)) return;
-        const auto wall = static_cast<std::size_t>(-1 - c.second);
-        const std::size_t faces = around.faces.size();
-        const Body& body = wall < faces ? around.faces[wall].body : around.meshes[wall - faces].body;
-        if (goes_its_way(body)) pressing = std::max(pressing, -1 - c.second);
+        if (c.overlap <= 0) return;
+        for (int k = 0; k < 2; ++k) {
+            const std::int32_t grain = k == 0 ? first : second;
+            if (c.first != grain && c.second != grain) continue;
+            ++touched[k].contacts;
+            if (c.second >= 0) continue;
+            const auto wall = static_cast<std::size_t>(-1 - c.second);
+            const std::size_t faces = around.faces.size();
+            const Body& body = wall < faces ? around.faces[wall].body : around.meshes[wall - faces].body;
+            if (goes_its_way(body)) touched[k].wall = std::max(touched[k].wall, -1 - c.second);
+        }
     });
+    std::int32_t pressing = -1;
+    for (const Touched& one : touched)
+        if (one.contacts > 1) pressing = std::max(pressing, one.wall);
     return pressing < 0 ? "" : wall_name(around, pressing);
 }
 

@@ -148,26 +148,38 @@ void warn_of_rounding(const Scene& scene, const BedPlan& bed, const Kinds& kinds
     }
 }
 
-// The seams of a round wall: the largest sin^2 of a turn between neighbours that count as one wall, and how
-// many edges turn so far.
+// Seams between facets of a wall: the largest sin^2 of a turn, and how many edges turn so far.
 struct Seams {
     double squared_sine = 0;
     std::int64_t count = 0;
 };
-Seams seams_of(const Surface& surface) {
+Seams seams_of(const std::vector<double>& squared_sines) {
     constexpr double kAlike = 0.8;
-    std::vector<double> all;
+    Seams seams;
+    for (const double one : squared_sines) seams.squared_sine = std::max(seams.squared_sine, one);
+    seams.count = std::count_if(squared_sines.begin(), squared_sines.end(),
+                                [&](double one) { return one > kAlike * seams.squared_sine; });
+    return seams;
+}
+
+// Seams of a round wall, and of one that is meant to be round, but turns too far at each seam to be one wall.
+struct RoundWalls {
+    Seams smooth, coarse;
+};
+RoundWalls round_walls_of(const Surface& surface) {
+    constexpr double kFewestFacets = 12;  // around a wall that is meant to be round
+    const double coarse_cosine = math::cos(2.001 * std::numbers::pi / kFewestFacets);
+    std::vector<double> smooth, coarse;
     for (std::int32_t t = 0; t < surface.size(); ++t)
         for (int edge = 0; edge < 3; ++edge) {
             const Neighbour& next = surface.neighbour(t, edge);
-            if (next.triangle > t && next.turn == Neighbour::Turn::smooth)
-                all.push_back(surface.normal(t).cross(surface.normal(next.triangle)).squaredNorm());
+            if (next.triangle <= t || next.turn == Neighbour::Turn::flat) continue;
+            const Vec3 &here = surface.normal(t), there = surface.normal(next.triangle);
+            const bool is_smooth = next.turn == Neighbour::Turn::smooth;
+            if (!is_smooth && (next.flips ? -1 : 1) * here.dot(there) < coarse_cosine) continue;
+            (is_smooth ? smooth : coarse).push_back(here.cross(there).squaredNorm());
         }
-    Seams seams;
-    for (const double one : all) seams.squared_sine = std::max(seams.squared_sine, one);
-    seams.count =
-        std::count_if(all.begin(), all.end(), [&](double one) { return one > kAlike * seams.squared_sine; });
-    return seams;
+    return {seams_of(smooth), seams_of(coarse)};
 }
 
 // A grain that slides over a seam of a round wall meets the next facet with the sine of the turn as its
@@ -181,16 +193,21 @@ void warn_of_facets(const Scene& scene, const Plan& plan, Warnings& warnings) {
         if (!mesh.surface.of || plan.mesh.size() < (m + 1) * species) continue;
         double e = 1;
         for (std::size_t s = 0; s < species; ++s) e = std::min(e, plan.mesh[m * species + s].restitution);
-        const Seams seams = seams_of(*mesh.surface.of);
-        const double loss = (1 - e * e) * seams.squared_sine;
-        if (!(loss > kAlarming) || seams.count < kFew) continue;
-        const double degrees = math::asin(std::sqrt(seams.squared_sine)) * 180 / std::numbers::pi;
+        const auto alarms = [&](const Seams& seams) {
+            return (1 - e * e) * seams.squared_sine > kAlarming && seams.count >= kFew;
+        };
+        const RoundWalls walls = round_walls_of(*mesh.surface.of);
+        const bool is_coarse = alarms(walls.coarse);
+        const Seams& seams = is_coarse ? walls.coarse : walls.smooth;
+        if (!alarms(seams)) continue;
         warnings.add(
             fmt::format("mesh[{}].file", m),
-            fmt::format("facets of \"{}\" turn by {:.2g} degrees from one to the next, and a grain that "
+            fmt::format("facets of \"{}\" turn by {:.2g} degrees from one to the next, {}and a grain that "
                         "slides across a seam loses (1 - e^2) sin^2 of that, {:.2g} % of its energy of "
                         "motion; take more facets: twice as many lose a quarter at each",
-                        mesh.name, degrees, 100 * loss));
+                        mesh.name, math::asin(std::sqrt(seams.squared_sine)) * 180 / std::numbers::pi,
+                        is_coarse ? "too far to be one wall (36 around are), " : "",
+                        100 * (1 - e * e) * seams.squared_sine));
     }
 }
 

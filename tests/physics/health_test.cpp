@@ -106,6 +106,24 @@ TEST_F(HealthCheck, NamesTheWallThatPresses) {
     EXPECT_THAT(overlap_text(limits, deepest), tells({"the plate moves", "let it stop", "diameter before"}));
 }
 
+// A fast wall that hits a free grain does not press it; there a larger stiffness helps.
+TEST_F(HealthCheck, BlamesTheStiffnessWhereAWallHitsAFreeGrain) {
+    limits.planned = 0.04;
+    Face plate = floor_face();
+    plate.name = "plate";
+    plate.point = Vec3(0, 0, 3.7 * kRadius);
+    plate.normal = Vec3(0, 0, -1);
+    plate.body.number = 2;
+    plate.body.velocity = Vec3(0, 0, -10);
+    w.around.faces.push_back(plate);
+    w.grains.place[0].position = Vec3(10 * kRadius, 0, 2 * kRadius);
+    w.grains.place[1].position = Vec3(0, 0, 2.9 * kRadius);
+    w.start();
+    const DeepestContact deepest = check_state(limits, w.around, w.grains, *w.loop, 0);
+    EXPECT_EQ(deepest.other, "the plate");
+    EXPECT_THAT(overlap_text(limits, deepest), tells({"0.2 of", "contact.wall.stiffness"}));
+}
+
 TEST_F(HealthCheck, StopsAtWhatIsNoNumber) {
     w.start();
     w.grains.motion[w.index_of(1)].velocity.y() = NAN;

@@ -94,10 +94,10 @@ TEST(StabilityChart, ListsHoldEveryTouchingPairAtAnySpeed) {
 }
 
 TEST(StabilityChart, ThePlansStepKeepsRestitutionAndMomentumAtAnyRatio) {
-    for (const char* name : {"restitution 0.02 to 0.999", "size ratio 1 to 20", "mass ratio 1 to 1000"})
+    for (const char* name : {"restitution 0.02 to 0.999", "size ratio 1 to 50", "mass ratio 1 to 1000"})
         EXPECT_LT(found(name).measured, 0.002) << name;
-    EXPECT_LT(found("momentum at size ratios 1 to 20").measured, 1e-12);
-    EXPECT_LT(found("slip at size ratios 1 to 20").measured, 1.2) << "as good as between equal grains";
+    EXPECT_LT(found("momentum at size ratios 1 to 50").measured, 1e-12);
+    EXPECT_LT(found("slip at size ratios 1 to 50").measured, 1.2) << "as good as between equal grains";
     EXPECT_NEAR(found("12 steps a contact (e = 0.9)").measured, 0.0018, 0.0002);
 }
 

@@ -453,6 +453,9 @@ TEST_F(MeshScene, TellsWhatSeamsOfARoundWallCost) {
     EXPECT_NE(warning(72, 0.5), "");   // 0.57 %
     EXPECT_EQ(warning(72, 0.6), "");   // 0.49 %
     EXPECT_EQ(warning(8, 0.5), "");    // eight walls that meet at edges
+    EXPECT_THAT(warning(24, 0.5), tells({"15 degrees", "too far to be one wall", "5 %", "more facets"}));
+    EXPECT_THAT(warning(34, 0.5), tells({"11 degrees", "too far to be one wall"}));
+    EXPECT_NE(warning(12, 0.5), "");
 }
 
 }  // namespace
