@@ -444,7 +444,7 @@ CHECKS = [
     ),
     Check(
         name="drum",
-        claim="in the first half turn a bed slides over in a drum: after 1 s nine codes have 0.33 of the small grains in the"
+        claim="in the first half turn a bed slides over in a drum: after 1 s two codes have 0.33 of the small grains in the"
         " lower left quarter (Dosta et al. 2024), within 5 % of the grains",
         scene="drum",
         runs=(("run.duration=1 s",),),
