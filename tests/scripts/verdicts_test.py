@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/phenomena.md"
-STUDENT = {2: 12.706, 3: 4.303, 4: 3.182, 5: 2.776}
+STUDENT = {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 21: 2.080, 29: 2.045, 37: 2.026}  # by degrees of freedom
 
 # (name of the row, how it stands there, table, which rows of it, column, factor, digits)
 NUMBERS = [
@@ -54,6 +54,8 @@ NUMBERS = [
     ("waves at f/2 and f/4", "and {} at 5 (by chance 0.25)", "quarter_waves",
      {"study": "quarter_waves", "drive.g_level": "5"}, "quarter", 1, 3),
     ("waves at f/2 and f/4", "Γ = 1.5: share {}", "surface_waves", {"variant": "seeds, Γ = 1.5"}, "surface_half", 1, 3),
+    ("waves at f/2 and f/4", "{} mm without friction", "surface_waves_floor",
+     {"contact.wall.friction": "0", "drive.frequency [Hz]": "15"}, "median_wavelength", 1000, 1),
     ("patterns of a wide thin layer", "small tray: 5 ({} mm)", "layer_patterns_small", {"study": "five seeds"},
      "wavelength_mm", 1, 1),
     ("one large grain", "in {} to", "intruder", {"study": "intruder_shaking", "drive.g_level": "2.5"}, "rise_time", 1, 1),
@@ -95,7 +97,7 @@ def with_interval(table, which, columns, factor, digits):
     """Mean ± half the interval, of the columns' mean in each row."""
     columns = (columns,) if isinstance(columns, str) else columns
     values = [factor * statistics.fmean(float(row[column]) for column in columns) for row in rows_of(table, which)]
-    half = STUDENT[len(values)] * statistics.stdev(values) / math.sqrt(len(values))
+    half = STUDENT[len(values) - 1] * statistics.stdev(values) / math.sqrt(len(values))
     return f"{statistics.fmean(values):.{digits}f} ± {half:.{digits}f}".replace("-", "−")
 
 
@@ -138,7 +140,26 @@ def wrong_shares(table):
         yield f"one large grain: '{expected}' by intruder.csv does not stand there"
 
 
+def wrong_trend():
+    """From friction 0 to 0.5, by a line through the logarithm of the wavelength, with an offset for each frequency."""
+    across, up = [], []
+    for frequency in ("15", "22"):
+        rows = rows_of("surface_waves_floor", {"drive.frequency [Hz]": frequency})
+        for values, column, scale in ((across, "contact.wall.friction", float),
+                                      (up, "median_wavelength", lambda cell: math.log(float(cell)))):
+            numbers = [scale(row[column]) for row in rows]
+            values += [number - statistics.fmean(numbers) for number in numbers]
+    squares = math.fsum(x * x for x in across)
+    slope = math.fsum(x * y for x, y in zip(across, up)) / squares
+    free = len(up) - 3
+    half = math.sqrt(math.fsum((y - slope * x)**2 for x, y in zip(across, up)) / free / squares) * STUDENT[free]
+    ends = [100 * math.expm1(0.5 * rise) for rise in (slope, slope - half, slope + half)]
+    expected = "{:+.0f} % [{:+.0f}, {:+.0f}]".format(*ends).replace("-", "−")
+    if expected not in " ".join(TABLE["waves at f/2 and f/4"]):
+        yield f"waves at f/2 and f/4: '{expected}' by surface_waves_floor.csv does not stand there"
+
+
 TABLE = verdicts()
-WRONG = [*wrong_rows(TABLE), *wrong_numbers(TABLE), *wrong_shares(TABLE)]
+WRONG = [*wrong_rows(TABLE), *wrong_numbers(TABLE), *wrong_shares(TABLE), *wrong_trend()]
 print(*WRONG, sep="\n")
 sys.exit(bool(WRONG))
