@@ -1,5 +1,5 @@
-// The kernels of a card. clang makes PTX of them without a toolkit of NVIDIA's; docs/notes/card.md has the
-// command. The emulated device calls the same functions in loops (emulated_device.cpp).
+// The kernels of a card. clang makes PTX of them without a toolkit of NVIDIA's; tests/card/ptx_test.py has
+// the options. The emulated device calls the same functions in loops (emulated_device.cpp).
 #define GRAINREEL_CARD
 #include "engine/vector/one_number.hpp"
 
