@@ -44,7 +44,10 @@ void StepLoop::run(std::int64_t from, std::int64_t count, double step, double dr
         fresh_ = false;
         if (drag > 0) kicks.keep = math::exp(-drag * step / static_cast<double>(scheme_.stages.size()));
         const auto work = [&](int member) { run_member(member, from, to, step, kicks); };
-        team_.run(std::ref(work));  // by reference: no copy on the heap
+        if (device_)
+            run_on_device(from, to, step, kicks);
+        else
+            team_.run(std::ref(work));  // by reference: no copy on the heap
         first_step_ = kGoesOn;
         from = members_[0].reached;
         end_with_fault();

@@ -6,6 +6,7 @@
 //   lists/bed_lists.hpp           the lists
 //   threads/work_shares.hpp       which grains each thread has
 //   forces/contact_forces.hpp     the forces
+//   step_loop_device.cpp          the loop where a graphics card computes the steps
 //   step_loop_traffic.cpp         grains that leave and enter, and walls that change
 //   step_loop.cpp                 the loop itself, its state for checkpoints, and what ends a run
 #pragma once
@@ -15,6 +16,7 @@
 #include <functional>
 #include <iosfwd>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "engine/base/team.hpp"
@@ -25,6 +27,7 @@
 #include "engine/step/forces/contact_forces.hpp"
 #include "engine/step/lists/bed_lists.hpp"
 #include "engine/step/motion/scheme.hpp"
+#include "engine/step/step_device.hpp"
 #include "engine/step/surroundings.hpp"
 
 namespace grainreel {
@@ -35,6 +38,10 @@ class StepLoop {
   public:
     // Grains, surroundings and team must outlive the loop.
     StepLoop(const Plan& plan, const Surroundings& surroundings, Grains& grains, Team& team);
+
+    // Lets a device compute the steps from now on. The team must have one thread, and the device must take
+    // the scene.
+    void use(std::unique_ptr<StepDevice> device);
 
     // Starts from the grains as they are now, without any contact history. Call it after positions, radii or
     // faces have changed.
@@ -131,6 +138,9 @@ class StepLoop {
 
     double last_share() const;
     void run_member(int member, std::int64_t from, std::int64_t to, double step, KickInput kicks);
+    void run_on_device(std::int64_t from, std::int64_t to, double step, KickInput kicks);
+    std::vector<DeviceStep> steps_ahead(Evaluations evaluations, std::int64_t to, double step,
+                                        KickInput kicks, bool begins_run) const;
     void set_kicks(const Evaluations& evaluations, const Evaluation& at, double step, KickInput& kicks) const;
     void move(int member, bool first, const KickInput& kicks);
     Told exchange(int member, const FreeFlight& flight, bool may_leave);
@@ -162,6 +172,8 @@ class StepLoop {
 
     Traffic traffic_;
     std::vector<Departure> departures_;  // departures that nobody has asked for yet
+
+    std::unique_ptr<StepDevice> device_;  // nullptr: this processor computes the steps
 };
 
 }  // namespace grainreel

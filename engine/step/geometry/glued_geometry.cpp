@@ -72,9 +72,9 @@ void glued_chunk(const GeometryInput& in, const GluedState& state, const std::in
             if (in.arms == LeverArms::contact_plane)
                 arm = Lanes(0.5) * multiply_add((at.radius - at.other_radius) * reach, inverse, at.distance);
             const Triple<Lanes> rate = triple(load_bundles(motion + kSpinOfMotion, kMotionNumbers, i));
-            const Rubbing<Lanes> rubbing = rubbing_of_spheres(k, velocity, inverse, rate * arm, rate, half);
-            put<Number>(rubbing.turn, out.turn, c);
-            velocity = rubbing.velocity;
+            const Swing<Lanes> swing = swing_of_spheres(k, velocity, inverse, half);
+            put<Number>(turn_by(swing, rate, k, half), out.turn, c);
+            velocity = surface_velocity(velocity, rate * arm, k, swing, half);
             put<Number>(arm, out.first_arm, c);
             if (in.wants == Wants::rolling) put<Number>(rate.across(k), in.rolling->rate, c);
         }

@@ -40,14 +40,13 @@ HWY_INLINE void to_contact_plane(R distance, R inverse, R& one, R& two) {
     two = distance - one;
 }
 
-// The motion of a contact between two spheres; the arguments are those of rubbing_of().
+// How the normal k between two spheres swings, by the velocity (m/s) of their centres.
 template <class R>
-HWY_INLINE Rubbing<R> rubbing_of_spheres(const Triple<R>& k, const Triple<R>& velocity, R inverse,
-                                         const Triple<R>& spins, const Triple<R>& both,
-                                         const HalfTimes<R>& half) {
+HWY_INLINE Swing<R> swing_of_spheres(const Triple<R>& k, const Triple<R>& velocity, R inverse,
+                                     const HalfTimes<R>& half) {
     const R closing = k.dot(velocity);
-    const R farther = less_product(R(1.0), R(2.0) * (half.step * inverse), closing);  // now / before the step
-    return rubbing_of(k, velocity, velocity.less(k, closing), inverse, farther, spins, both, half);
+    return {velocity.less(k, closing), inverse,
+            less_product(R(1.0), R(2.0) * (half.step * inverse), closing)};
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

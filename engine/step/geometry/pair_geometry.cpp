@@ -166,10 +166,10 @@ void sweep_spins(const GeometryInput& in, const Places& at, TouchChunk& out) {
             to_contact_plane(row_at<L>(out.turn[0], c), inverse, first_arm, second_arm);
         put<Number>(first_arm, out.first_arm, c);
         put<Number>(second_arm, out.second_arm, c);
-        const Rubbing<L> rubbing = rubbing_of_spheres(
-            k, velocity, inverse, (one * first_arm).plus(two, second_arm), one + two, half);
-        put<Number>(rubbing.velocity, out.velocity, c);
-        put<Number>(rubbing.turn, out.turn, c);
+        const Swing<L> swing = swing_of_spheres(k, velocity, inverse, half);
+        const Triple<L> spins = (one * first_arm).plus(two, second_arm);
+        put<Number>(surface_velocity(velocity, spins, k, swing, half), out.velocity, c);
+        put<Number>(turn_by(swing, one + two, k, half), out.turn, c);
         if (in.wants == Wants::rolling) put<Number>((one - two).across(k), in.rolling->rate, c);
     }
 }

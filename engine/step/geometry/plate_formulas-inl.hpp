@@ -65,17 +65,15 @@ HWY_INLINE AtPlate<R> at_plate(const Triple<R>& centre, const Plate<R>& p) {
     return at;
 }
 
-// The motion of a contact with a plate. The part of the motion perpendicular to k that turns v is: along the
-// edge by round_share, and the rest where the nearest point is on the edge.
+// How the normal k swings. The part of the motion perpendicular to k that turns v is: along the edge by
+// round_share, and the rest where the nearest point is on the edge.
 template <class R>
-HWY_INLINE Rubbing<R> rubbing_at_plate(const AtPlate<R>& at, const Triple<R>& k, const Triple<R>& velocity,
-                                       R inverse, const Triple<R>& spin, R arm, const HalfTimes<R>& half) {
+HWY_INLINE Swing<R> swing_at_plate(const AtPlate<R>& at, const Triple<R>& k, const Triple<R>& velocity,
+                                   R inverse, const HalfTimes<R>& half) {
     const R closing = k.dot(velocity), along_edge = at.around.dot(velocity), one(1.0);
     const Triple<R> upright = velocity.less(k, closing).less(at.around, along_edge);
-    const Triple<R> across =
-        (upright * select(at.at_edge, one, R(0.0))).plus(at.around, along_edge * at.round_share);
-    const R farther = select(at.at_edge, less_product(one, R(2.0) * (half.step * inverse), closing), one);
-    return rubbing_of(k, velocity, across, inverse, farther, spin * arm, spin, half);
+    return {(upright * select(at.at_edge, one, R(0.0))).plus(at.around, along_edge * at.round_share), inverse,
+            select(at.at_edge, less_product(one, R(2.0) * (half.step * inverse), closing), one)};
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -68,9 +68,9 @@ void plates_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& o
         if (in.wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? at.distance : radius;
             const Triple<Lanes> rate = triple(load_bundles(motion + kSpinOfMotion, kMotionNumbers, i));
-            const Rubbing<Lanes> rubbing = rubbing_at_plate(at, k, velocity, inverse, rate, arm, half);
-            put<Number>(rubbing.turn, out.turn, c);
-            velocity = rubbing.velocity;
+            const Swing<Lanes> swing = swing_at_plate(at, k, velocity, inverse, half);
+            put<Number>(turn_by(swing, rate, k, half), out.turn, c);
+            velocity = surface_velocity(velocity, rate * arm, k, swing, half);
             put<Number>(arm, out.first_arm, c);
             if (in.wants == Wants::rolling) put<Number>(rate.across(k), in.rolling->rate, c);
         }

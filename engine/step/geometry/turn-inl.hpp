@@ -33,28 +33,33 @@ HWY_INLINE Triple<L> turn_of(const Triple<L>& k, const Triple<L>& back, L twist)
     return back.cross(k).plus(k + back, twist);
 }
 
-// The motion of a contact that rubs.
-template <class R>
-struct Rubbing {
-    Triple<R> velocity;  // m/s, of i's surface relative to j's
-    Triple<R> turn;      // Cayley's vector
-};
-
 // The times (s) by which a contact's motion is found: half of GeometryInput::turns_for, and half a step.
 template <class R>
 struct HalfTimes {
     R turn, step;
 };
 
-// From the velocity of the centres and the spins. `across` is the part of the velocity that turns the normal
-// k, over the distance 1 / `inverse`; it turned it by as much at the distance at the step's beginning, of
-// which today's is the share `farther`. `spins` are spins times arms, and `both` is the sum of the spins.
+// How the normal swings: `across` (m/s) is the part of the velocity that turns it, at the distance 1 /
+// `inverse` (m), and `farther` is the distance now over that at the step's beginning.
 template <class R>
-HWY_INLINE Rubbing<R> rubbing_of(const Triple<R>& k, const Triple<R>& velocity, const Triple<R>& across,
-                                 R inverse, R farther, const Triple<R>& spins, const Triple<R>& both,
-                                 const HalfTimes<R>& half) {
-    return {of_surfaces(velocity, spins, k, across * (half.turn * inverse)),
-            turn_of(k, across * (half.step * inverse * farther), R(0.5) * half.step * both.dot(k))};
+struct Swing {
+    Triple<R> across;
+    R inverse, farther;
+};
+
+// Velocity of i's surface relative to j's; of_surfaces(). `spins` are spins times arms.
+template <class R>
+HWY_INLINE Triple<R> surface_velocity(const Triple<R>& velocity, const Triple<R>& spins, const Triple<R>& k,
+                                      const Swing<R>& swing, const HalfTimes<R>& half) {
+    return of_surfaces(velocity, spins, k, swing.across * (half.turn * swing.inverse));
+}
+
+// Cayley's vector of a contact's turn; turn_of(). `both` is the sum of the spins.
+template <class R>
+HWY_INLINE Triple<R> turn_by(const Swing<R>& swing, const Triple<R>& both, const Triple<R>& k,
+                             const HalfTimes<R>& half) {
+    return turn_of(k, swing.across * (half.step * swing.inverse * swing.farther),
+                   R(0.5) * half.step * both.dot(k));
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

@@ -54,16 +54,15 @@ HWY_INLINE Triple<R> normal_to(const AtWall<R>& w, R inverse, const Triple<R>& i
     return select(w.round, w.out_from_axis * inverse, -into);
 }
 
-// The motion of a contact with a wall. A cylinder's normal turns as the grain moves around the axis. A
-// plane's normal does not turn.
+// How the normal k swings. A cylinder's normal turns as the grain moves around the axis. A plane's normal
+// does not turn.
 template <class R>
-HWY_INLINE Rubbing<R> rubbing_at_wall(const Triple<R>& k, const Triple<R>& velocity, MaskFor<R> round,
-                                      R inverse, const Triple<R>& spin, R arm, const HalfTimes<R>& half) {
+HWY_INLINE Swing<R> swing_at_wall(const Triple<R>& k, const Triple<R>& velocity, MaskFor<R> round, R inverse,
+                                  const HalfTimes<R>& half) {
     const R closing = k.dot(velocity);
     Triple<R> across = velocity.less(k, closing) * select(round, R(-1.0), R(0.0));
     across.z = R(0.0);
-    const R nearer = multiply_add(R(2.0) * (half.step * inverse), closing, R(1.0));
-    return rubbing_of(k, velocity, across, inverse, nearer, spin * arm, spin, half);
+    return {across, inverse, multiply_add(R(2.0) * (half.step * inverse), closing, R(1.0))};
 }
 
 }  // namespace grainreel::HWY_NAMESPACE

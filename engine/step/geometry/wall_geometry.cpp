@@ -69,9 +69,9 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
         if constexpr (wants >= Wants::spin) {
             const Lanes arm = in.arms == LeverArms::contact_plane ? at.distance : radius;
             const Triple<Lanes> rate = triple(load_bundles(motion + kSpinOfMotion, kMotionNumbers, i));
-            const Rubbing<Lanes> rubbing = rubbing_at_wall(k, velocity, at.round, inverse, rate, arm, half);
-            put<Number>(rubbing.turn, out.turn, c);
-            velocity = rubbing.velocity;
+            const Swing<Lanes> swing = swing_at_wall(k, velocity, at.round, inverse, half);
+            put<Number>(turn_by(swing, rate, k, half), out.turn, c);
+            velocity = surface_velocity(velocity, rate * arm, k, swing, half);
             put<Number>(arm, out.first_arm, c);
             if constexpr (wants == Wants::rolling) put<Number>(rate.across(k), in.rolling->rate, c);
         }

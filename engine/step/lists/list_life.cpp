@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/mesh/surface.hpp"
+#include "engine/step/lists/expiry.hpp"
 
 namespace grainreel {
 
@@ -55,16 +56,18 @@ Vec3 ListLife::frame(const Evaluation& at, double step) const {
     return (drift(at.time, step) - drift(last, step)) / at.since;
 }
 
+double ListLife::wall_way(int thread, const Evaluation& at, const Vec3& drift) const {
+    const Reach& reach = threads_[thread].reach;
+    return ways_.farthest(reach.pose, at.now, drift - reach.drift);
+}
+
 bool ListLife::contacts_expired(int thread, const Vec3& fastest, std::int64_t parted, std::int64_t grains,
                                 const Evaluation& at, const Vec3& drift) {
-    constexpr std::int64_t kRefresh = 16;  // a refresh takes as long as this many contacts per grain
     Reach& reach = threads_[thread].reach;
-    reach.parted += parted;
-    reach.fastest = fastest.norm();
-    reach.moved += reach.fastest * std::abs(at.since);
-    const Vec3 flown = drift - reach.drift;
-    return 2 * reach.moved > reach.skin || reach.parted > kRefresh * grains ||
-           reach.moved + ways_.farthest(reach.pose, at.now, flown) > reach.skin;
+    UsedUp used{reach.moved, reach.fastest, reach.parted};
+    use_up(used, fastest.x(), fastest.y(), fastest.z(), parted, at.since);
+    reach.moved = used.moved, reach.fastest = used.fastest, reach.parted = used.parted;
+    return are_used_up(used, reach.skin, wall_way(thread, at, drift), grains);
 }
 
 void ListLife::set_reach(int thread, const DrivePose& now, const Vec3& drift, const Vec3& frame,

@@ -87,6 +87,8 @@ class ListLife {
     // count the same numbers.
     bool contacts_expired(int thread, const Vec3& fastest, std::int64_t parted, std::int64_t grains,
                           const Evaluation& at, const Vec3& drift);
+    // How far (m) walls have moved since the contact lists were refreshed, beside the free flight.
+    double wall_way(int thread, const Evaluation& at, const Vec3& drift) const;
     // Sets the skin so that the contact lists last for some 48 steps at the present speeds.
     void set_reach(int thread, const DrivePose& now, const Vec3& drift, const Vec3& frame, double step);
     // Measures how far the grains [begin, end) have moved. Every thread does so for its own grains. After a
