@@ -33,8 +33,9 @@ async function openBed(run, n) {
     if (!packed) return null;
     try {
         const [forces, meshes] = ["forces-bytes", "meshes-bytes"].map((id) => bytesOf(id + n));
-        return new BedPanel(run.bed, await inflated(packed), runTime, n, forces && (await inflated(forces)),
-                            meshes && (await inflated(meshes)));
+        const frames = new PageBed(run.bed, await inflated(packed));
+        const pairs = run.bed.forces && forces ? new PairForces(run.bed.forces, await inflated(forces), frames.grains) : null;
+        return new BedPanel(run.bed, frames, runTime, n, pairs, meshes && (await inflated(meshes)));
     } catch (problem) {
         say("bed-says" + n, tr("The bed in three dimensions is not shown: {1}. Film and charts do without it.", problem.message));
         return null;
