@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/error.hpp"
+#include "engine/base/mathematics.hpp"
 #include "engine/play/played_bed.hpp"
 
 namespace grainreel {
@@ -74,7 +75,7 @@ std::uint16_t place_number(double x, int axis) {
 }
 
 std::uint8_t speed_byte(double speed) {
-    const double share = 1 + std::log(std::max(speed, 1e-300) / page.highest_speed) / std::log(speed_span);
+    const double share = 1 + math::log(std::max(speed, 1e-300) / page.highest_speed) / math::log(speed_span);
     return static_cast<std::uint8_t>(share < 0 ? 0
                                                : std::clamp(std::lround(share * speed_steps) + 1, 1L, 254L));
 }

@@ -1,7 +1,7 @@
-// A run of another program as a StateArchive: grains, contacts and walls from its files, in SI units. Three
-// sources belong to it: foreign_files.cpp chooses the files, foreign_walls.cpp follows walls, and
-// foreign_archive.cpp does the rest. The formats are read elsewhere (raw_file.hpp); nothing here depends on a
-// single format.
+// A run of another program as a StateArchive: grains, contacts and walls from its files, in SI units. Four
+// sources belong to it: foreign_files.cpp chooses the files, foreign_survey.cpp reads all moments once,
+// foreign_walls.cpp follows walls, and foreign_archive.cpp does the rest. The formats are read elsewhere
+// (raw_file.hpp); nothing here depends on a single format.
 #pragma once
 
 #include <array>

@@ -170,12 +170,9 @@ std::optional<double> GrainMeaning::unit_in_name(Column column, Dimension dimens
 }
 
 void GrainMeaning::find_places(const RawTable& table) {
-    const bool user_says =
-        options_.columns.count("x") + options_.columns.count("y") + options_.columns.count("z") > 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::string letter(1, kAxes[axis]);
         place_[axis] = column_for(letter, table, options_, file_);
-        scaled_[axis] = place_[axis] && facts_.scaled_places && !user_says;
         for (const auto& [suffix, scaled] : {std::pair("u", false), {"s", true}, {"su", true}}) {
             if (place_[axis]) break;
             place_[axis] = column_for(letter + suffix, table, options_, file_);

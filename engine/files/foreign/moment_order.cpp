@@ -12,8 +12,11 @@ namespace {
 using Key = double;  // the step or the time of a moment
 using Parts = std::vector<PlacedMoment>;
 using Known = std::map<Key, Parts>;
-using Returned = OrderedMoments::Returned;
+using GoneBack = OrderedMoments::GoneBack;
 using AreParts = OrderedMoments::AreParts;
+
+// A gap so many times as wide as the frames beside it are apart is one that a piece of the run fills.
+constexpr double clearly_wider = 1.5;
 
 // Frames that were written one after the other, with keys that do not fall.
 struct Stretch {
@@ -47,7 +50,7 @@ class Order {
         if (!stretch.keys.empty()) add(stretch);
     }
     const Known& known() const { return known_; }
-    const Returned& returned() const { return returned_; }
+    const GoneBack& gone_back() const { return gone_back_; }
 
   private:
     Key a_little_before(Key key) const { return key - room_ * std::abs(key); }
@@ -87,8 +90,8 @@ class Order {
                           [](Key key, const auto& one) { return key == one.first; });
     }
 
-    // Pieces of a run may lie in any order in a file. A piece fills a gap that is wider than the frames
-    // beside it are apart, or lies before all frames so far.
+    // Pieces of a run may lie in any order in a file: steps 0 to 10, 21 to 30, then 11 to 20. A piece fills a
+    // gap that is wider than the frames beside it are apart, or lies before all frames so far.
     bool is_piece_in_wrong_place(const Stretch& stretch) const {
         if (a_little_after(stretch.last()) < known_.begin()->first) return true;
         const auto after = known_.lower_bound(a_little_before(stretch.first()));
@@ -96,7 +99,7 @@ class Order {
         const Key before = std::prev(after)->first;
         if (after->first <= a_little_after(stretch.last())) return false;
         const Key typical = typical_distance(stretch, before);
-        return typical > 0 && after->first - before > 1.5 * typical;
+        return typical > 0 && after->first - before > clearly_wider * typical;
     }
 
     // The distance of frames in the stretch; where it has a single one, of the frames before the gap.
@@ -108,9 +111,9 @@ class Order {
     }
 
     void note_return(const Stretch& stretch) {
-        if (returned_.twice + returned_.given_up > 0) return;
-        returned_.from = known_.rbegin()->first;
-        returned_.to = stretch.first();
+        if (gone_back_.twice + gone_back_.given_up > 0) return;
+        gone_back_.from = known_.rbegin()->first;
+        gone_back_.to = stretch.first();
     }
 
     // Removes what the stretch replaces: all from its first frame on. A stretch that begins before all known
@@ -122,7 +125,7 @@ class Order {
             const auto same =
                 std::lower_bound(stretch.keys.begin(), stretch.keys.end(), a_little_before(one->first));
             const bool again = same != stretch.keys.end() && *same <= a_little_after(one->first);
-            ++(again ? returned_.twice : returned_.given_up);
+            ++(again ? gone_back_.twice : gone_back_.given_up);
         }
         known_.erase(from, to);
     }
@@ -130,7 +133,7 @@ class Order {
     double room_;
     const AreParts& are_parts_;
     Known known_;
-    Returned returned_;
+    GoneBack gone_back_;
 };
 
 }  // namespace
@@ -150,11 +153,11 @@ OrderedMoments in_order(const std::vector<PlacedMoment>& all, const AreParts& ar
         return stepped ? static_cast<double>(*one.moment.step) : *one.moment.time;
     };
     const double room = stepped ? 0 : 1e-9;
-    const auto note = [&](const Returned& more) {
-        if (made.returned.twice + made.returned.given_up == 0)
-            made.returned.from = more.from, made.returned.to = more.to;
-        made.returned.twice += more.twice;
-        made.returned.given_up += more.given_up;
+    const auto note = [&](const GoneBack& more) {
+        if (made.gone_back.twice + made.gone_back.given_up == 0)
+            made.gone_back.from = more.from, made.gone_back.to = more.to;
+        made.gone_back.twice += more.twice;
+        made.gone_back.given_up += more.given_up;
     };
     // Each file by itself, and then all files together, because each of several processes may have gone back.
     std::vector<PlacedMoment> by_file;
@@ -164,12 +167,12 @@ OrderedMoments in_order(const std::vector<PlacedMoment>& all, const AreParts& ar
         Order order(room, are_parts);
         order.add_all({begin, end}, key_of);
         for (const auto& [key, parts] : order.known()) by_file.push_back(parts.front());
-        note(order.returned());
+        note(order.gone_back());
         begin = end;
     }
     Order order(room, are_parts);
     order.add_all(by_file, key_of);
-    note(order.returned());
+    note(order.gone_back());
     for (const auto& [key, parts] : order.known()) made.moments.push_back(parts);
     return made;
 }

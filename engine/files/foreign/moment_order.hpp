@@ -22,16 +22,16 @@ struct OrderedMoments {
     using AreParts = std::function<bool(const PlacedMoment&, const PlacedMoment&)>;
 
     // What was left out because the run had gone on from an earlier moment.
-    struct Returned {
+    struct GoneBack {
         std::size_t twice = 0;     // frames of steps (or times) that came again
         std::size_t given_up = 0;  // other frames after the moment from which the run went on
-        double from = 0, to = 0;   // the first return: from this step to that one; times in the file's unit
+        double from = 0, to = 0;   // the first time: from this step to that one; times in the file's unit
     };
 
     // By rising step, or else by time, or else as they were written. Files that several processes wrote for
     // one moment are together.
     std::vector<std::vector<PlacedMoment>> moments;
-    Returned returned;
+    GoneBack gone_back;
 };
 
 // all: in the order in which they were written, file after file. Frames that stand in the wrong order only

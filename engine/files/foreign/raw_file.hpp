@@ -84,9 +84,8 @@ struct RawFacts {
     std::optional<Vec3> gravity{};  // in the file's units, if it says
     // m in the unit of length and s in the unit of time, where the format fixes them.
     std::optional<double> length_unit{}, time_unit{};
-    int dimensions = 3;          // 2 if the file says so
-    int first_row_id = 1;        // id of a frame's first row in a file without ids, used by contacts
-    bool scaled_places = false;  // columns x, y, z are fractions of the box (old dumps without names)
+    int dimensions = 3;    // 2 if the file says so
+    int first_row_id = 1;  // id of a frame's first row in a file without ids, used by contacts
 };
 
 // The file has no whole frame, but may get one.

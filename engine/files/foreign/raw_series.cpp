@@ -160,21 +160,21 @@ void RawSeries::list_moments() {
             moment.has_contacts = moment.has_contacts || more.has_contacts;
         }
     }
-    tell_of_return(ordered.returned);
+    tell_of_return(ordered.gone_back);
 }
 
-void RawSeries::tell_of_return(const OrderedMoments::Returned& returned) {
+void RawSeries::tell_of_return(const OrderedMoments::GoneBack& gone_back) {
     const std::string name = files_.front().string();
-    if (returned.twice > 0)
+    if (gone_back.twice > 0)
         news_.push_back(fmt::format(
             "{}: {} twice, as after a restart; the later frame counts", name,
-            returned.twice == 1 ? "1 moment comes" : fmt::format("{} moments come", returned.twice)));
-    if (returned.given_up > 0)
+            gone_back.twice == 1 ? "1 moment comes" : fmt::format("{} moments come", gone_back.twice)));
+    if (gone_back.given_up > 0)
         news_.push_back(
             fmt::format("{}: goes back from {:.10g} to {:.10g}, as after a restart; {} that the "
                         "run gave up there {} left out",
-                        name, returned.from, returned.to, counted(returned.given_up, "frame"),
-                        returned.given_up == 1 ? "is" : "are"));
+                        name, gone_back.from, gone_back.to, counted(gone_back.given_up, "frame"),
+                        gone_back.given_up == 1 ? "is" : "are"));
 }
 
 bool RawSeries::are_parts(const PlacedMoment& one, const PlacedMoment& other) const {

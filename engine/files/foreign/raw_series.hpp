@@ -48,7 +48,7 @@ class RawSeries {
     RawFile& opened(const std::filesystem::path& file) const;
     Looked look(const std::filesystem::path& file) const;
     void list_moments();
-    void tell_of_return(const OrderedMoments::Returned& returned);
+    void tell_of_return(const OrderedMoments::GoneBack& gone_back);
     bool are_parts(const PlacedMoment& one, const PlacedMoment& other) const;
     void tell_of_equal_files();
 

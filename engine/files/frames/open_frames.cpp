@@ -13,7 +13,7 @@
 #include "engine/files/frames/state_archive.hpp"
 
 // All readers in the order in which they are asked. NAME stands for a function ReadFormat NAME_reader() in
-// engine/files/frames/readers.
+// engine/files/frames/readers; foreign_reader() is in engine/files/foreign.
 #define GRAINREEL_FRAME_READERS(one) \
     one(run_folder) one(trajectory) one(checkpoint) one(grain_table) one(foreign)
 

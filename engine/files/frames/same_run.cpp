@@ -221,8 +221,8 @@ void check_rows(double step_length, const std::vector<double>& steps, const std:
 
 }  // namespace
 
-void check_measured(const Scene& scene, const MeasureTable& table, const State& frame,
-                    const std::string& measures) {
+void check_measures_at(const Scene& scene, const MeasureTable& table, const State& frame,
+                       const std::string& measures) {
     const std::vector<double> steps = table.all("step");
     const auto row_of_step = std::lower_bound(steps.begin(), steps.end(), static_cast<double>(frame.step));
     if (row_of_step == steps.end() || *row_of_step != static_cast<double>(frame.step)) return;
@@ -240,6 +240,7 @@ void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& 
                     measures + ": its last row");
         check_rows(clock.step, steps, times, measures);
     }
+    // One moment that both have is enough: the latest one that is not damaged.
     for (const auto& [row, index] : moments_of_both(steps, trajectory.moments())) {
         try {
             return check_heights(scene, table, row, trajectory.grains(index), measures);

@@ -12,7 +12,7 @@
 
 namespace grainreel {
 
-// Compares names and densities of species. trajectory, and measures below: names of the files, for messages.
+// Compares the number of species. trajectory, and measures below: names of the files, for messages.
 void check_species(const Scene& scene, const StoredWorld& world, const std::string& trajectory);
 // Compares the shapes of meshes. in_file: the world according to the trajectory.
 void check_meshes(const Scene& scene, const StoredWorld& in_file, const std::string& trajectory);
@@ -27,8 +27,8 @@ void check_measures(const Scene& scene, const Clock& clock, const MeasureTable& 
                     const StateArchive& trajectory, const std::string& measures);
 // Compares the grains' centre of mass at a moment if the table has a row for it. If two files disagree only
 // at one moment, they are of one run and one of them was altered.
-void check_measured(const Scene& scene, const MeasureTable& table, const State& frame,
-                    const std::string& measures);
+void check_measures_at(const Scene& scene, const MeasureTable& table, const State& frame,
+                       const std::string& measures);
 // Checks that grains in contact touch in the frame.
 void check_contacts(const Scene& scene, const std::vector<Link>& touches, const State& frame,
                     const std::string& contacts);

@@ -90,19 +90,19 @@ SimulatedBed replayed(const fs::path& run, const std::vector<KeptCheckpoint>& ke
 }
 
 Replayer::Replayer(std::filesystem::path run, std::vector<KeptCheckpoint> kept, int threads)
-    : run_(std::move(run)), kept_(std::move(kept)), threads_(threads) {}
+    : run_(std::move(run)), checkpoints_(std::move(kept)), threads_(threads) {}
 
 bool Replayer::reaches(std::int64_t step) const {
-    return !kept_.empty() && kept_.front().step <= step;
+    return !checkpoints_.empty() && checkpoints_.front().step <= step;
 }
 
 bool Replayer::goes_to(std::int64_t step) const {
-    return reaches(step) && std::none_of(kept_.begin(), kept_.end(),
+    return reaches(step) && std::none_of(checkpoints_.begin(), checkpoints_.end(),
                                          [&](const KeptCheckpoint& one) { return one.step == step; });
 }
 
 bool Replayer::is_shortcut(std::int64_t from, std::int64_t to) const {
-    return std::any_of(kept_.begin(), kept_.end(),
+    return std::any_of(checkpoints_.begin(), checkpoints_.end(),
                        [&](const KeptCheckpoint& one) { return one.step > from && one.step <= to; });
 }
 
@@ -113,7 +113,7 @@ SimulatedBed& Replayer::at(std::int64_t step, const ReplayWatcher& watcher) {
         replay_on(*simulation_, step, watcher);
     } else {
         simulation_.reset();  // frees its memory before the next one is made
-        simulation_.emplace(replayed(run_, kept_, step, threads_, watcher));
+        simulation_.emplace(replayed(run_, checkpoints_, step, threads_, watcher));
     }
     return *simulation_;
 }

@@ -55,7 +55,7 @@ class Replayer {
     bool is_shortcut(std::int64_t from, std::int64_t to) const;
 
     std::filesystem::path run_;
-    std::vector<KeptCheckpoint> kept_;
+    std::vector<KeptCheckpoint> checkpoints_;
     int threads_;
     std::optional<SimulatedBed> simulation_;
 };

@@ -247,7 +247,7 @@ void StoredRun::check_all() {
     for (std::size_t k = 0; k < moments().size(); ++k) {
         try {
             const State frame = grains(k);
-            if (measures_) check_measured(scene_, *measures_, frame, name_of("measures.csv"));
+            if (measures_) check_measures_at(scene_, *measures_, frame, name_of("measures.csv"));
             if (contacts_) contacts_->touches(place(k));
             whole_contacts_[place(k)] = true;
         } catch (const DamagedFrame& error) {

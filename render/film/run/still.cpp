@@ -155,7 +155,11 @@ void check_still(const FilmRequest& request, const RenderRequest& what) {
 
 StillPainter::StillPainter(StoredShots& source, const FilmRequest& request, const PrintSize& print,
                            Listener& listener, std::shared_ptr<DrawingContext> kept)
-    : source_(source), listener_(listener), gl_(request.gl), scene_(source.scene()), kept_(std::move(kept)) {
+    : source_(source),
+      listener_(listener),
+      gl_(request.gl),
+      scene_(source.scene()),
+      context_(std::move(kept)) {
     source.watch_replay(watcher_of(listener));
     fit_to_paper(scene_.film, print);
     settle_orbit(scene_.film.camera, static_cast<double>(source.film().shots().size()) / scene_.film.rate);
@@ -175,8 +179,8 @@ bool StillPainter::prepare(std::int64_t step, const OwnColours* own, const ShotS
     if (renderer_ && same && !scene.film.shows.trails.wanted()) return true;
     scene_ = std::move(scene);
     renderer_.reset();
-    renderer_.emplace(scene_, drawing_threads(scene_.run.threads).raster, gl_, kept_);
-    kept_ = renderer_->context();
+    renderer_.emplace(scene_, drawing_threads(scene_.run.threads).raster, gl_, context_);
+    context_ = renderer_->context();
     if (const std::string note = renderer_->gl_note(); !note.empty()) listener_.info("note: " + note);
     if (remember_what_was(*renderer_, step, source_, go_on)) return true;
     renderer_.reset();

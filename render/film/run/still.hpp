@@ -48,7 +48,7 @@ class StillPainter {
                               PdfPage* page = nullptr);
 
     const FilmedScene& scene() const { return scene_; }
-    std::shared_ptr<DrawingContext> context() const { return kept_; }  // none before the first picture
+    std::shared_ptr<DrawingContext> context() const { return context_; }  // none before the first picture
 
   private:
     void tell_once(const std::vector<std::string>& lines);
@@ -58,7 +58,7 @@ class StillPainter {
     Listener& listener_;
     const gl::Provider gl_;
     FilmedScene scene_;
-    std::shared_ptr<DrawingContext> kept_;  // serves one renderer after the other
+    std::shared_ptr<DrawingContext> context_;  // serves one renderer after the other
     std::optional<Renderer> renderer_;
     std::set<std::string> told_;  // warnings
 };

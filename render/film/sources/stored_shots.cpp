@@ -119,13 +119,13 @@ void StoredShots::start(const std::vector<Due>& shots, const std::vector<FilmSeg
     shots_ = shots;
     segments_ = segments;
     next_ = 0;
-    kept_ = {};
+    earlier_ = {};
     for (Due& shot : shots_) {
         shot.step = shown(shot.step);
         const FilmSegment& rule = segments_.at(static_cast<std::size_t>(shot.segment));
-        kept_.want(shot.step, parts_.moments(shot.step, rule, film_.periods_at(shot.step)));
+        earlier_.want(shot.step, parts_.moments(shot.step, rule, film_.periods_at(shot.step)));
     }
-    wanted_ = kept_.steps();
+    wanted_ = earlier_.steps();
 }
 
 std::optional<StoredMoment> StoredShots::take(std::int64_t step, bool touches, const GoOn& go_on) {
@@ -145,7 +145,7 @@ bool StoredShots::keep_moments_until(std::int64_t step, const GoOn& go_on) {
         if (run_.origin_of(one, false) == Origin::nowhere) continue;
         const std::optional<StoredMoment> moment = take(one, false, go_on);
         if (!moment) return false;
-        kept_.keep(moment->frame);
+        earlier_.keep(moment->frame);
     }
     return true;
 }
@@ -160,11 +160,11 @@ std::optional<Taken> StoredShots::next(const GoOn& go_on) {
     Shot shot(std::move(moment->frame));
     parts_.add(shot, segments_.at(static_cast<std::size_t>(due.segment)), periods,
                beside(shot.time, std::move(moment->touches)), [&](std::int64_t step) {
-                   StatePtr kept = kept_.at(step);
+                   StatePtr kept = earlier_.at(step);
                    return kept ? kept : earlier(step);
                });
     const bool again = next_ < shots_.size() && shots_[next_].step == due.step;
-    if (!again) kept_.done_with(due.step);
+    if (!again) earlier_.done_with(due.step);
     return Taken{std::make_shared<const Shot>(std::move(shot)), due.segment, periods};
 }
 

@@ -90,7 +90,7 @@ class StoredShots final : public ShotSource {
     ReplayWatcher watcher_;
     std::vector<Due> shots_;
     std::vector<FilmSegment> segments_;
-    KeptStates kept_;
+    KeptStates earlier_;
     std::set<std::int64_t> wanted_;  // steps whose moments later pictures need
     std::size_t next_ = 0;           // index of the next shot
 };

@@ -84,8 +84,6 @@ struct TextIndex {
     void cut_at(const DumpHead& head, const CutFrame& how);
 };
 
-struct DumpFrame;
-
 enum class LastWord { whole, cut, open };
 
 // Judges the last word of a text without a line feed by the words above it in its column. Programs end each

@@ -36,7 +36,7 @@ struct RowGroup {
 
 struct FrameRows {
     RawMoment moment;
-    std::vector<RowGroup> runs;
+    std::vector<RowGroup> groups;
     std::string first_id;  // of its first row, as it stands there
 };
 
@@ -80,14 +80,14 @@ class NumberTable : public RawFile {
     FrameRows& frame_at(double clock);
     void drop_last_frame();
     void sort_frames();
-    double clock_of(std::size_t column) const;
-    void add_rows(std::vector<ColumnFiller>& columns, const RowGroup& run) const;
+    double clock_in_column(std::size_t column) const;
+    void add_rows(std::vector<ColumnFiller>& columns, const RowGroup& group) const;
     void add_row(std::vector<ColumnFiller>& columns) const;
     void name_partners_of(RawTable& contacts) const;
     void name_nameless();
 
     TableLayout layout_;
-    std::vector<std::vector<RowGroup>> runs_;      // the rows of each moment
+    std::vector<std::vector<RowGroup>> groups_;    // the rows of each moment
     std::vector<FrameRows> frames_;                // while they are found: in the order in which they begin
     std::map<double, std::size_t> frame_of_;       // for each time or step: its last frame
     std::optional<std::size_t> time_, step_, id_;  // numbers of these columns
@@ -157,7 +157,7 @@ void NumberTable::find_partners() {
     if (partners_) id_.reset();
 }
 
-double NumberTable::clock_of(std::size_t column) const {
+double NumberTable::clock_in_column(std::size_t column) const {
     const std::optional<double> value = cell_number(cells_[column].text, layout_.decimal_comma);
     if (!value || !std::isfinite(*value))
         fault(fmt::format("column {} ({}) has {}, which is no time", column + 1, layout_.names[column],
@@ -172,7 +172,7 @@ FrameRows& NumberTable::frame_at(double clock) {
     if (known != frame_of_.end()) {
         FrameRows& frame = frames_[known->second];
         const bool again =
-            frame.runs.back().last_line + 1 < line_.number && id_ && cells_[*id_].text == frame.first_id;
+            frame.groups.back().last_line + 1 < line_.number && id_ && cells_[*id_].text == frame.first_id;
         if (!again) return frame;
     }
     frame_of_[clock] = frames_.size();
@@ -205,19 +205,19 @@ bool NumberTable::take_row() {
     split_cells(line_.text, layout_.form, cells_);
     const std::optional<std::size_t> clock = time_ ? time_ : step_;
     if (cells_.size() < layout_.names.size() && !line_.ended) {
-        if (clock && *clock + 1 < cells_.size()) last_ = clock_of(*clock);
+        if (clock && *clock + 1 < cells_.size()) last_ = clock_in_column(*clock);
         return false;
     }
     if (cells_.size() != layout_.names.size())
         fault(fmt::format("this row has {} in place of {}", counted(cells_.size(), "column"),
                           layout_.names.size()));
-    last_ = clock ? clock_of(*clock) : 0.0;
+    last_ = clock ? clock_in_column(*clock) : 0.0;
     FrameRows& frame = frame_at(last_);
     RawMoment& moment = frame.moment;
     if (moment.grains == 0) {
         if (time_) moment.time = last_ * time_unit_;
         if (step_) {
-            const double step = clock_of(*step_);
+            const double step = clock_in_column(*step_);
             if (!(std::abs(step) < 9e18))
                 fault(fmt::format("column {} ({}) has {}, which is no step of a run", *step_ + 1,
                                   layout_.names[*step_], in_quotes(cells_[*step_].text)));
@@ -225,10 +225,10 @@ bool NumberTable::take_row() {
         }
     }
     ++moment.grains;
-    if (frame.runs.empty() || frame.runs.back().last_line + 1 != line_.number)
-        frame.runs.push_back({line_.place, line_.number, 0, 0});
-    ++frame.runs.back().rows;
-    frame.runs.back().last_line = line_.number;
+    if (frame.groups.empty() || frame.groups.back().last_line + 1 != line_.number)
+        frame.groups.push_back({line_.place, line_.number, 0, 0});
+    ++frame.groups.back().rows;
+    frame.groups.back().last_line = line_.number;
     if (!layout_.named && cells_.size() == 4) ranges_.add(cells_, layout_.decimal_comma);
     return true;
 }
@@ -262,7 +262,7 @@ void NumberTable::find_frames() {
             frame.moment.grains = 0;
         }
         moments_.push_back(frame.moment);
-        runs_.push_back(std::move(frame.runs));
+        groups_.push_back(std::move(frame.groups));
     }
     frames_.clear();
     frame_of_.clear();
@@ -308,9 +308,9 @@ void NumberTable::add_row(std::vector<ColumnFiller>& columns) const {
     }
 }
 
-void NumberTable::add_rows(std::vector<ColumnFiller>& columns, const RowGroup& run) const {
-    lines_.seek(run.byte, run.line);
-    for (std::int64_t row = 0; row < run.rows; ++row) {
+void NumberTable::add_rows(std::vector<ColumnFiller>& columns, const RowGroup& group) const {
+    lines_.seek(group.byte, group.line);
+    for (std::int64_t row = 0; row < group.rows; ++row) {
         if (!lines_.next(line_)) fault("the file has become shorter while it was read");
         add_row(columns);
     }
@@ -336,12 +336,12 @@ RawFrame NumberTable::read(std::size_t index) const {
     std::vector<ColumnFiller> columns;
     for (std::size_t i = 0; i < layout_.names.size(); ++i)
         columns.emplace_back(layout_.names[i], layout_.is_word[i] ? CellKind::word : CellKind::number);
-    for (const RowGroup& run : runs_.at(index)) add_rows(columns, run);
+    for (const RowGroup& group : groups_.at(index)) add_rows(columns, group);
     RawFrame frame;
     frame.time = moments_[index].time;
     frame.step = moments_[index].step;
     RawTable& table = partners_ ? frame.contacts : frame.grains;
-    for (const RowGroup& run : runs_[index]) table.rows += static_cast<std::size_t>(run.rows);
+    for (const RowGroup& group : groups_[index]) table.rows += static_cast<std::size_t>(group.rows);
     for (ColumnFiller& column : columns) table.columns.push_back(column.finish());
     if (partners_) name_partners_of(table);
     return frame;
