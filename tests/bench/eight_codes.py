@@ -219,20 +219,20 @@ class Drum:
                     print(f"{words}; {100 * off:+.1f} % of the grains")
                 else:
                     good &= judge(words, off, 0.05)
-        if "drum_torque_N.m" in table(job.run / "measures.csv")[-1]:
+        if job.until > 0.5 and "drum_torque_N.m" in table(job.run / "measures.csv")[-1]:  # not in runs of before
             torque, weight = self.torques(job)
             good &= judge(f"torque on the drum from 0.5 s to {job.until:g} s, mN m: {1e3 * torque:.2f}; of the grains' weight "
                           f"{1e3 * weight:.2f}", torque / weight - 1, 0.05)
         return good
 
-    def torques(self, job):
-        """About the axis, means from 0.5 s on: of the grains on the drum, and of their weight, which it balances."""
-        torque = [row["drum_torque_N.m"] for row in table(job.run / "measures.csv") if row["time_s"] > 0.5]
+    def torques(self, job, since=0.5):
+        """About the axis, means from then on: of the grains on the drum, and of their weight, which it balances."""
+        torque = [row["drum_torque_N.m"] for row in table(job.run / "measures.csv") if row["time_s"] > since]
         frames, weights = Fields(job.run / "trajectory.nc"), []
         mass = {k + 1: MATERIALS[m][1] * math.pi / 6 * d**3 for k, (m, d) in enumerate((("M1", 0.002), ("M2", 0.004)))}
         kind = frames.record("type", 0)
         for i, when in enumerate(frames.values("time")):
-            if when > 0.5:  # the axis is y: r x (0, 0, -m g) has m g x along it
+            if when > since:  # the axis is y: r x (0, 0, -m g) has m g x along it
                 weights.append(9.81 * sum(mass[k] * x for x, k in zip(frames.record("coordinates", i)[0::3], kind)))
         return sum(torque) / len(torque), sum(weights) / len(weights)
 

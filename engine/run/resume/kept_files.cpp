@@ -71,7 +71,9 @@ std::vector<std::int64_t> steps_in_measures(const fs::path& file) {
 bool keeps_fields(const Scene& scene) {
     const std::vector<std::string> wanted = scene.instruments();
     const auto wants = [&](const char* instrument) { return contains(wanted, instrument); };
-    return scene.output.fields.wanted() || wants(observers::WallForces::instrument) ||
+    const bool presses =
+        wants(observers::WallForces::instrument) && !PressureProfile(scene).fields().fields.empty();
+    return scene.output.fields.wanted() || presses ||
            (wants(observers::Wear::instrument) && !scene.meshes.empty());
 }
 

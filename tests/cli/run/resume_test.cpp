@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <set>
 
@@ -99,6 +100,32 @@ const std::vector<std::string> with_all = {"--duration", "1.5 s",
                                            "--set",      "output.fields.periods=3",
                                            "--set",      "film.segment=[{playback=5}]",
                                            "--frames"};
+
+// Only faces of a container have a profile of pressure, so such a run has no fields.nc.
+TEST_F(ResumedRun, WithForcesOnMeshesAlone) {
+    std::ofstream(here / "ball.toml") << R"([[species]]
+name = "ball"
+diameter = "4 mm"
+density = 2500
+[container]
+shape = "none"
+[[mesh]]
+name = "plate"
+file = "shipped:gate.stl"
+[[grain]]
+species = "ball"
+position = [0, 0, "3 mm"]
+[run]
+duration = "2 ms"
+[output]
+instruments = ["walls"]
+)";
+    ASSERT_EQ(run({"movie", "ball.toml", "--no-film", "--no-report", "--out", "run"}).status, 0);
+    EXPECT_FALSE(fs::exists(here / "run" / "fields.nc"));
+    const Ended ended = run({"resume", "run", "--until", "4 ms", "--no-film", "--no-report"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(record("run")["status"], "complete");
+}
 
 TEST_F(ResumedRun, DamagedKeyMomentsAreSaid) {
     ASSERT_EQ(run(movie("run", {})).status, 0);
