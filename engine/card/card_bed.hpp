@@ -31,7 +31,6 @@ class GroupOnCard {
     void bring_late(const ContactTable& table, const std::vector<std::int32_t>& candidates,
                     std::int32_t grains);
 
-    const ContactGroup* of_;
     Group group_{};
     Array<double> parameters_, rolling_parameters_, history_, push_;
     Array<std::int32_t> row_, first_, second_, began_, late_start_, late_at_, late_count_;

@@ -41,8 +41,7 @@ HostLists lists_by_grain(const std::int32_t* first, const std::int32_t* second, 
 }  // namespace
 
 GroupOnCard::GroupOnCard(Device& device, const ContactGroup& group)
-    : of_(&group),
-      parameters_(device),
+    : parameters_(device),
       rolling_parameters_(device),
       history_(device),
       push_(device),

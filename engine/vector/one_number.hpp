@@ -15,6 +15,7 @@
 #define HWY_AFTER_NAMESPACE() \
     _Pragma("clang force_cuda_host_device end") static_assert(true, "a semicolon follows")
 #elif defined(__x86_64__) && defined(__clang__)
+#pragma clang diagnostic ignored "-Wpragma-clang-attribute"  // a header may have no functions
 #define HWY_BEFORE_NAMESPACE()                                                                            \
     _Pragma("clang attribute push(__attribute__((target(\"fma\"))), apply_to = function)") static_assert( \
         true, "a semicolon follows")

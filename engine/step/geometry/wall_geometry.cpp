@@ -12,29 +12,28 @@
 HWY_BEFORE_NAMESPACE();
 namespace grainreel::HWY_NAMESPACE {
 
-struct GrainAtWall {
-    AtWall<Lanes> at;
-    Triple<Lanes> into;
-    Lanes radius;
-};
-HWY_INLINE GrainAtWall at_wall(const double* place, const WallState& walls, const std::int32_t* i,
-                               const std::int32_t* face) {
+HWY_INLINE AtWall<Lanes> at_wall(const double* place, const WallState& walls, const std::int32_t* i,
+                                 const std::int32_t* face, Triple<Lanes>& into, Lanes& radius) {
     const auto grain = load_bundles(place, kPlaceNumbers, i);
     const auto plane = load_bundles(numbers(walls.faces), 8, face);
-    const Triple<Lanes> centre = triple(grain), into = triple(plane);
-    GrainAtWall w{at_plane(centre, into, Lanes(plane.d)), into, Lanes(grain.d)};
+    const Triple<Lanes> centre = triple(grain);
+    into = triple(plane);
+    radius = grain.d;
+    AtWall<Lanes> w = at_plane(centre, into, Lanes(plane.d));
     if (!walls.any_round) return w;
     const auto cylinder = load_bundles(numbers(walls.faces) + 4, 8, face);
-    or_cylinder(centre, triple(cylinder), Lanes(cylinder.d), w.at);
+    or_cylinder(centre, triple(cylinder), Lanes(cylinder.d), w);
     return w;
 }
 
 std::uint64_t walls_that_touch(const Grains& grains, const std::int32_t* i, const std::int32_t* face,
                                int count, const WallState& walls) {
     std::uint64_t touching = 0;
+    Triple<Lanes> into;
+    Lanes radius;
     for (int c = 0; c < count; c += kLanes) {
-        const GrainAtWall w = at_wall(numbers(grains.place), walls, i + c, face + c);
-        touching |= bits(w.at.distance < w.radius) << c;
+        const AtWall<Lanes> at = at_wall(numbers(grains.place), walls, i + c, face + c, into, radius);
+        touching |= bits(at.distance < radius) << c;
     }
     return touching;
 }
@@ -47,7 +46,9 @@ void walls_chunk(const GeometryInput& in, const WallState& walls, TouchChunk& ou
     const HalfTimes<Lanes> half{Lanes(0.5 * in.turns_for), Lanes(0.5 * in.step)};
     for (int c = 0; c < whole_blocks(in.count); c += kLanes) {
         const std::int32_t *i = in.first + c, *face = in.second + c;
-        const auto [at, into, radius] = at_wall(place, walls, i, face);
+        Triple<Lanes> into;
+        Lanes radius;
+        const AtWall<Lanes> at = at_wall(place, walls, i, face, into, radius);
         const Lanes overlap = radius - at.distance;
         put<Number>(overlap, out.overlap, c);
         const LanesMask touching = overlap > Lanes(0.0);
