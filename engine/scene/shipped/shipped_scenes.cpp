@@ -66,11 +66,13 @@ const ShippedScene* shipped_scene_like(std::string_view words, const std::vector
 }
 
 // Whole names, or their beginnings and ends, word by word: "brazil_nuts" is near to the end of
-// teaching_brazil_nut.
+// teaching_brazil_nut. Short parts are near to too much: "scene" to the beginning of cone_hopper.
 std::optional<std::string> nearest_shipped_scene(std::string_view name,
                                                  const std::vector<ShippedScene>& among) {
     std::vector<std::string> parts, whole;
+    constexpr std::size_t shortest_part = 6;
     const auto add = [&](const std::string& part, const std::string& of) {
+        if (part != of && part.size() < shortest_part) return;
         parts.push_back(part);
         whole.push_back(of);
     };
