@@ -61,12 +61,6 @@ python3-selenium     Selenium for Python
 python3-netcdf4      netCDF4 for Python
 "
 
-# Debian's compiler for the web, which `./movie play` and `./test --browser` take to build the engine once more.
-web_packages="
-emscripten           Emscripten, for ./movie play
-node-acorn           acorn for Node, with which Emscripten makes scripts smaller
-"
-
 peers_packages="
 lammps               LAMMPS, for ./test --peers
 liggghts             LIGGGHTS
@@ -215,21 +209,4 @@ compile() {  # ninja's targets. Two scripts at once take turns.
     else
         NINJA_STATUS='[%f/%t] ' flock "$build" ninja -C "$build" "$@" | tell_build || exit 1
     fi
-}
-
-web="$root/build/web"
-
-# Builds the engine for browsers (engine/web), if the compiler for it is there or may be installed. Without it the program
-# says what is missing.
-compile_web() {  # $1: yes or no: may packages be installed
-    local toolchain
-    [[ $1 == no ]] || install_packages "$web_packages"
-    if ! command -v em++ em-config >/dev/null; then return 0; fi
-    toolchain=$(em-config EMSCRIPTEN_ROOT)/cmake/Modules/Platform/Emscripten.cmake
-    if ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$web/CMakeCache.txt" || [[ ! -e $web/build.ninja ]]; then
-        (cd "$root" && cmake --fresh -S . -B "$web" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-            "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" "-DCMAKE_TOOLCHAIN_FILE=$toolchain" >&2) || exit 2
-    fi
-    [[ -e $web/page_engine.wasm ]] || say "Building the engine for browsers; the first time takes a few minutes."
-    NINJA_STATUS='[%f/%t] ' flock "$web" ninja -C "$web" page_engine | tell_build || exit 1
 }

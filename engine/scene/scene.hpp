@@ -342,14 +342,6 @@ struct Output {
     bool operator==(const Output&) const = default;
 };
 
-// What a page that computes lets its reader turn (engine/play/knobs.hpp).
-struct SceneKnob {
-    std::string key;                             // "drive.frequency"
-    std::optional<std::array<double, 2>> range;  // SI
-    std::string label;                           // in place of the usual words; empty: those
-    bool operator==(const SceneKnob&) const = default;
-};
-
 // What a film or other users of a run need in addition to what [output] asks for.
 struct Wishes {
     std::vector<std::string> instruments;  // also measured
@@ -373,8 +365,6 @@ struct Scene {
     Run run;
     Output output;
     Wishes wishes;
-    std::vector<SceneKnob> knobs;  // empty: a handful that the scene suggests
-    std::string challenge;         // a line above a bed that is played with
     // The tables of [film] as TOML. The engine keeps them as they are; render/scene reads them.
     std::string film_text;
 

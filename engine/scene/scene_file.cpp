@@ -175,7 +175,6 @@ void read_scene_into(Scene& scene, const NamedText& from, const Assignments& set
     shorten(document, scene);
     count_fed(document, scene);
     read_fields(document, scene);
-    read_knobs(document, scene);
     if (measurable) scene.measurable = measurable(scene);
     check_instruments(document, scene);
     if (further != nullptr) further->read_tables(document);
@@ -203,7 +202,6 @@ const std::vector<Key>& scene_keys() {
         list_start(all);
         list_run(all);
         list_feeds(all);
-        list_knobs(all);
         return all;
     }();
     return keys;
@@ -224,7 +222,6 @@ std::string written_scene(const Scene& scene, const Reasons& reasons) {
     write_drive(out, scene);
     write_start(out, scene);
     write_run(out, scene, reasons);
-    write_knobs(out, scene);
     return out.take() + scene.film_text;
 }
 

@@ -156,7 +156,7 @@ std::vector<KeptContacts> contacts_from_checkpoint(const Scene& scene, const Con
 namespace {
 
 // The tables that only show or record a run, or that say how its grains came to be.
-constexpr std::array kDecideNothing = {"film", "output", "start", "grain", "knob", "play"};
+constexpr std::array kDecideNothing = {"film", "output", "start", "grain"};
 
 bool lies_in(std::string_view key, std::string_view table) {
     return key.substr(0, table.size()) == table &&

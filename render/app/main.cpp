@@ -1,7 +1,6 @@
 // The program: finds the verb, runs it, and turns mistakes and failures into exit codes.
 #include <sys/resource.h>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -10,7 +9,6 @@
 #include "engine/base/error.hpp"
 #include "engine/base/system/own_files.hpp"
 #include "engine/base/text.hpp"
-#include "engine/vector/instructions.hpp"
 #include "render/app/command_line.hpp"
 #include "render/app/messages/reporter.hpp"
 #include "render/app/messages/stop_signal.hpp"
@@ -47,7 +45,6 @@ int run(Verb& verb) {
 
 int parse_and_run(int argc, char** argv) {
     const auto work = [&] {
-        if (const char* instructions = std::getenv("GRAINREEL_INSTRUCTIONS")) use_instructions(instructions);
         if (const std::unique_ptr<Verb> verb = parse_command_line(argc, argv)) return run(*verb);
         close_results();
         return 0;

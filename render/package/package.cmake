@@ -19,10 +19,6 @@ install(TARGETS grainreel RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/grainreel/scenes
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.stl" PATTERN "*.csv")
 
-# The engine for browsers, if ./movie play or ./test --browser has built it (engine/web).
-install(FILES ${CMAKE_SOURCE_DIR}/build/web/page_engine.js ${CMAKE_SOURCE_DIR}/build/web/page_engine.wasm
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/grainreel/web OPTIONAL)
-
 # The program writes its manual itself, so it must run on the machine that installs, or there must be an emulator for it.
 install(CODE "
   execute_process(COMMAND ${CMAKE_COMMAND} \"-DPROGRAM=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:grainreel>\"

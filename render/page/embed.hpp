@@ -48,15 +48,11 @@ std::vector<std::uint8_t> zlib_packed(std::span<const std::uint8_t> bytes);
 // unchanged. The scripts are joined by the build (embed_page.cmake), with uPlot first.
 struct PageFiles {
     std::string_view page, body, variant, bed, charts, fields, live, style;
-    std::string_view script_before, mesh_script, script_after, script_end;
-    std::string_view play, play_style, play_script, play_worker;  // of a page that computes
+    std::string_view script_before, mesh_script, script_after;
 
     // The whole script of a page. Only scenes with meshes need the part that draws meshes.
     std::string script(bool meshes) const {
-        return fmt::format("{}{}{}{}", script_before, meshes ? mesh_script : "", script_after, script_end);
-    }
-    std::string playing_script(bool meshes) const {
-        return fmt::format("{}{}{}{}", script_before, meshes ? mesh_script : "", script_after, play_script);
+        return fmt::format("{}{}{}", script_before, meshes ? mesh_script : "", script_after);
     }
 };
 const PageFiles& page_files();

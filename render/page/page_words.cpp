@@ -7,22 +7,15 @@
 #include "engine/base/error.hpp"
 #include "render/page/embed.hpp"
 #include "render/page/page_words_table.hpp"
-#include "render/page/play/play_words_table.hpp"
 
 namespace grainreel {
 
 namespace {
 
-template <class Rows>
-const PageRow* row_in(const Rows& rows, std::string_view english) {
-    const auto row =
-        std::find_if(rows.begin(), rows.end(), [&](const PageRow& one) { return english == one.english; });
-    return row == rows.end() ? nullptr : &*row;
-}
-
 const PageRow* row_of(std::string_view english) {
-    const PageRow* row = row_in(page_rows, english);
-    return row != nullptr ? row : row_in(play_rows, english);
+    const auto row = std::find_if(page_rows.begin(), page_rows.end(),
+                                  [&](const PageRow& one) { return english == one.english; });
+    return row == page_rows.end() ? nullptr : &*row;
 }
 
 // The film's word with that English text, as a pattern with {1} ...
@@ -90,7 +83,6 @@ std::string PageWords::with_words(std::string facts) const {
         if (std::string text = pattern(english); text != english) words[english] = std::move(text);
     };
     for (const PageRow& row : page_rows) take(row.english);
-    for (const PageRow& row : play_rows) take(row.english);
     for (int k = 0; k < static_cast<int>(Word::end_of_table); ++k) take(english_of(static_cast<Word>(k)));
     if (words.empty()) return facts;
     const std::string text = words.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

@@ -11,7 +11,6 @@
 #include "render/page/page_measures.hpp"
 #include "render/page/page_words.hpp"
 #include "render/page/page_words_table.hpp"
-#include "render/page/play/play_words_table.hpp"
 #include "render/scene/filmed_scene.hpp"
 
 namespace grainreel {
@@ -27,15 +26,9 @@ std::set<std::string> parts_of_text(const std::string& text) {
     return {std::sregex_token_iterator(text.begin(), text.end(), part), std::sregex_token_iterator()};
 }
 
-std::vector<PageRow> all_rows() {
-    std::vector<PageRow> rows(page_rows.begin(), page_rows.end());
-    rows.insert(rows.end(), play_rows.begin(), play_rows.end());
-    return rows;
-}
-
 TEST(PageWords, HaveTheSamePartsInEachLanguage) {
     std::set<std::string> seen;
-    for (const PageRow& row : all_rows()) {
+    for (const PageRow& row : page_rows) {
         EXPECT_TRUE(seen.insert(row.english).second) << row.english << " is there twice";
         for (const char* other : row.others) {
             EXPECT_THAT(std::string(other), Not(IsEmpty())) << row.english;
@@ -54,10 +47,10 @@ std::set<std::string> texts_of_page() {
         for (std::sregex_iterator match(all.begin(), all.end(), form), end; match != end; ++match)
             texts.insert((*match)[1]);
     };
-    for (const std::string_view one : {files.page, files.body, files.variant, files.bed, files.charts,
-                                       files.fields, files.live, files.play})
+    for (const std::string_view one :
+         {files.page, files.body, files.variant, files.bed, files.charts, files.fields, files.live})
         take(one, "\\[\\[([^\\]]*)\\]\\]");
-    const std::string script = files.script(true) + std::string(files.play_script);
+    const std::string script = files.script(true);
     const std::string ours = script.substr(script.find("\"use strict\";\n"));  // uPlot comes before
     take(ours, "\\btr\\(\"([^\"]*)\"");
     return texts;
@@ -65,7 +58,7 @@ std::set<std::string> texts_of_page() {
 
 TEST(PageWords, HaveAllTextsOfThePage) {
     std::set<std::string> known;
-    for (const PageRow& row : all_rows()) known.insert(row.english);
+    for (const PageRow& row : page_rows) known.insert(row.english);
     for (int k = 0; k < static_cast<int>(Word::end_of_table); ++k)
         known.insert(english_of(static_cast<Word>(k)));
     const std::set<std::string> texts = texts_of_page();

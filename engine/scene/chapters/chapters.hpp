@@ -80,11 +80,6 @@ void list_run(keys::Keys& all);
 void read_run(Document& document, Scene& scene);  // after the contacts
 void write_run(SceneText& out, const Scene& scene, const Reasons& reasons);
 
-// [[knob]] and [play]. No run depends on them.
-void list_knobs(keys::Keys& all);
-void read_knobs(Document& document, Scene& scene);
-void write_knobs(SceneText& out, const Scene& scene);
-
 // [output.fields].
 void list_fields(keys::Keys& all);
 void read_fields(Document& document, Scene& scene);  // after drive and run, and the count of fed grains

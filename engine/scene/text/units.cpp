@@ -1,21 +1,76 @@
 #include "engine/scene/text/units.hpp"
 
 #include <fmt/format.h>
+#include <udunits2.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <string_view>
 #include <vector>
 
 #include "engine/base/error.hpp"
 #include "engine/base/text.hpp"
-#include "engine/scene/text/unit_system.hpp"
 
 namespace grainreel {
 
 namespace {
+
+struct FreeUnit {
+    void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+using Unit = std::unique_ptr<ut_unit, FreeUnit>;
+
+// The table of units that udunits installs beside itself. Its location is compiled into the library, or given
+// by UDUNITS2_XML_PATH. udunits keeps global state, so every use takes units_lock.
+class UnitSystem {
+  public:
+    UnitSystem() {
+        ut_set_error_message_handler(ut_ignore);  // it would print to stderr
+        system_ = ut_read_xml(nullptr);
+        if (system_ == nullptr)
+            throw UserError(
+                "the units database udunits2.xml is missing; install the package libudunits2-data or set "
+                "UDUNITS2_XML_PATH to the file");
+        // udunits knows degrees by name and by the degree sign only, and revolutions by name.
+        if (const Unit degree = parse("degree")) ut_map_symbol_to_unit("deg", UT_ASCII, degree.get());
+        if (const Unit turn = parse("revolution")) ut_map_symbol_to_unit("rev", UT_ASCII, turn.get());
+    }
+    ~UnitSystem() { ut_free_system(system_); }
+    UnitSystem(const UnitSystem&) = delete;
+    UnitSystem& operator=(const UnitSystem&) = delete;
+
+    Unit parse(const std::string& text) const { return Unit(ut_parse(system_, text.c_str(), UT_UTF8)); }
+
+    // The factor from `from` to `to`; none when they measure different things. For udunits the radian is 1,
+    // and 25 rad/s would pass as 25 Hz; here it is a dimension of its own.
+    static std::optional<double> factor(const Unit& from, const Unit& to) {
+        if (!ut_are_convertible(from.get(), to.get())) return std::nullopt;
+        const Unit ratio(ut_divide(from.get(), to.get()));
+        std::array<char, 256> definition{};
+        if (!ratio ||
+            ut_format(ratio.get(), definition.data(), definition.size() - 1, UT_ASCII | UT_DEFINITION) < 0)
+            return std::nullopt;
+        if (std::string_view(definition.data()).find("rad") != std::string_view::npos) return std::nullopt;
+        const std::unique_ptr<cv_converter, void (*)(cv_converter*)> converter(
+            ut_get_converter(from.get(), to.get()), cv_free);
+        if (!converter || cv_convert_double(converter.get(), 0) != 0) return std::nullopt;  // no offsets
+        return cv_convert_double(converter.get(), 1);
+    }
+
+  private:
+    ut_system* system_ = nullptr;
+};
+
+std::mutex units_lock;
+
+const UnitSystem& unit_system() {
+    static const UnitSystem system;
+    return system;
+}
 
 constexpr std::array<DimensionText, 20> dimension_texts{{
     {"m", "a length", "\"5 mm\"", 1e-12, 1e6},
@@ -79,10 +134,23 @@ std::optional<std::string> with_decimal_point(std::string_view text) {
 }
 
 // " is a time" for a unit of another known dimension, else " is not".
-std::string other_dimension(const std::string& unit) {
+std::string other_dimension(const Unit& unit) {
     for (const DimensionText& other : dimension_texts)
-        if (unit_system::factor(unit, other.unit)) return fmt::format(" is {}", other.noun);
+        if (UnitSystem::factor(unit, unit_system().parse(other.unit)))
+            return fmt::format(" is {}", other.noun);
     return " is not";
+}
+
+// A unit in base units: "m.kg.s-2" without its factor.
+std::string base_units(const Unit& unit) {
+    std::array<char, 256> definition{};
+    if (ut_format(unit.get(), definition.data(), definition.size() - 1, UT_ASCII | UT_DEFINITION) < 0)
+        return "none";
+    std::string_view text = definition.data();
+    const std::size_t space = text.find(' ');
+    if (space != std::string_view::npos) text.remove_prefix(space + 1);
+    // The definition of a pure number has no units at all.
+    return std::string(text.find_first_not_of("0123456789.eE+-") == std::string_view::npos ? "" : text);
 }
 
 std::optional<Powers> powers_of(std::string_view base) {
@@ -104,11 +172,14 @@ std::optional<Powers> powers_of(std::string_view base) {
 }  // namespace
 
 std::optional<AnyUnit> parse_unit(std::string_view text) {
-    if (!looks_like_unit(text)) return std::nullopt;
-    const std::optional<std::string> base = unit_system::base_units(std::string(text));
-    const std::optional<Powers> powers = base ? powers_of(*base) : std::nullopt;
+    const std::lock_guard guard(units_lock);
+    const Unit unit = looks_like_unit(text) ? unit_system().parse(std::string(text)) : Unit();
+    if (!unit) return std::nullopt;
+    const std::string base = base_units(unit);
+    const std::optional<Powers> powers = powers_of(base);
     if (!powers) return std::nullopt;
-    const std::optional<double> size = unit_system::factor(std::string(text), base->empty() ? "1" : *base);
+    const std::optional<double> size =
+        UnitSystem::factor(unit, unit_system().parse(base.empty() ? "1" : base));
     if (!size) return std::nullopt;
     return AnyUnit{*size, *powers};
 }
@@ -139,16 +210,21 @@ double parse_quantity(std::string_view text, Dimension dimension, const std::str
                                      : fmt::format("\"{}\" has a unit", shown));
     if (unit_text.empty()) throw fail(fmt::format("\"{}\" has no unit", shown));
 
-    if (!looks_like_unit(unit_text) || !unit_system::knows(unit_text))
-        throw fail(fmt::format("\"{}\" has the unknown unit \"{}\"", shown, excerpt(unit_text)));
-    const std::optional<double> scale = unit_system::factor(unit_text, wanted.unit);
-    if (!scale) throw fail(fmt::format("\"{}\"{}", shown, other_dimension(unit_text)));
+    const std::lock_guard guard(units_lock);
+    const Unit unit = looks_like_unit(unit_text) ? unit_system().parse(unit_text) : Unit();
+    if (!unit) throw fail(fmt::format("\"{}\" has the unknown unit \"{}\"", shown, excerpt(unit_text)));
+    const std::optional<double> scale = UnitSystem::factor(unit, unit_system().parse(wanted.unit));
+    if (!scale) throw fail(fmt::format("\"{}\"{}", shown, other_dimension(unit)));
     return scaled(value, *scale);
 }
 
 std::optional<double> unit_size_in(std::string_view text, Dimension dimension) {
     if (!looks_like_unit(text)) return std::nullopt;
-    const std::optional<double> scale = unit_system::factor(std::string(text), text_of(dimension).unit);
+    const std::lock_guard guard(units_lock);
+    const Unit unit = unit_system().parse(std::string(text));
+    if (!unit) return std::nullopt;
+    const std::optional<double> scale =
+        UnitSystem::factor(unit, unit_system().parse(text_of(dimension).unit));
     return scale ? std::optional(scaled(1, *scale)) : std::nullopt;
 }
 

@@ -3,8 +3,8 @@
 // The table, in the order of --help: NAME stands for the function NAME_verb() of the file NAME.cpp.
 #define GRAINREEL_VERBS(verb)                                                                               \
     verb(movie) verb(resume) verb(render) verb(join) verb(compare) verb(report) verb(export) verb(handover) \
-        verb(watch) verb(play) verb(inspect) verb(study) verb(check) verb(new) verb(scenes) verb(schema)    \
-            verb(doctor) verb(chart) verb(bench) verb(completion) verb(manual)
+        verb(watch) verb(inspect) verb(study) verb(check) verb(new) verb(scenes) verb(schema) verb(doctor)  \
+            verb(chart) verb(bench) verb(completion) verb(manual)
 
 namespace grainreel {
 

@@ -3,15 +3,15 @@ const asInFilm = 6; // number of the film's own colouring; findColourings() has 
 
 class BedPanel {
     /**
-     * frames: the moments, a BedMoments. n: ending of the ids of its elements, when the page has several beds. forces:
-     * the Forces at some of the moments; meshBytes: bytes of the meshes of walls; null without any.
+     * n: ending of the ids of its elements, when the page has several beds. forceBytes: bytes of the forces at key
+     * moments; meshBytes: bytes of the meshes of walls; null without any.
      */
-    constructor(facts, frames, runTime, n = "", forces = null, meshBytes = null) {
+    constructor(facts, bytes, runTime, n = "", forceBytes = null, meshBytes = null) {
         this.n = n;
-        this.frames = frames;
+        this.frames = new PageBed(facts, bytes);
         this.facts = facts;
         this.runTime = runTime;
-        this.forces = forces;
+        this.forces = facts.forces && forceBytes ? new PairForces(facts.forces, forceBytes, facts.grains) : null;
         this.others = []; // beds beside this one
         this.canvas = this.part("bed");
         const camera = new Camera(facts.view, facts.box);

@@ -96,7 +96,7 @@ class Live {
             if (this.bed) {
                 this.bed.take(facts, packed);
             } else {
-                this.bed = new BedPanel(facts, new PageBed(facts, packed), this.runTime, "", null, await this.meshes(facts));
+                this.bed = new BedPanel(facts, packed, this.runTime, "", null, await this.meshes(facts));
                 report.bed = this.bed;
             }
         } catch (problem) {

@@ -33,9 +33,8 @@ async function openBed(run, n) {
     if (!packed) return null;
     try {
         const [forces, meshes] = ["forces-bytes", "meshes-bytes"].map((id) => bytesOf(id + n));
-        const frames = new PageBed(run.bed, await inflated(packed));
-        const pairs = run.bed.forces && forces ? new PairForces(run.bed.forces, await inflated(forces), frames.grains) : null;
-        return new BedPanel(run.bed, frames, runTime, n, pairs, meshes && (await inflated(meshes)));
+        return new BedPanel(run.bed, await inflated(packed), runTime, n, forces && (await inflated(forces)),
+                            meshes && (await inflated(meshes)));
     } catch (problem) {
         say("bed-says" + n, tr("The bed in three dimensions is not shown: {1}. Film and charts do without it.", problem.message));
         return null;

@@ -18,8 +18,44 @@ function presentState(speed, contacts) {
     return state === absent ? state - 0x100 : state;
 }
 
-/** Moments of a bed, whose bytes the graphics card reads: `packed` has x, y, z and the state of each grain. */
-class BedMoments {
+class PageBed {
+    constructor(facts, bytes) {
+        Object.assign(this, facts); // grains, times, low, high, places, speed, ...
+        const n = this.grains, k = this.times.length;
+        const perGrain = this.film ? 10 : 9;
+        if (bytes.length !== 10 * n + k * n * perGrain)
+            throw new Error(`there are ${bytes.length} bytes of them in place of ${10 * n + k * n * perGrain}`);
+        const view = new DataView(bytes.buffer, bytes.byteOffset);
+        this.ids = Int32Array.from({length: n}, (_, i) => view.getInt32(4 * i, true));
+        this.species = Uint16Array.from({length: n}, (_, i) => view.getUint16(4 * n + 2 * i, true));
+        this.radii = Float32Array.from({length: n}, (_, i) => view.getFloat32(6 * n + 4 * i, true));
+        // The data as the graphics card reads it: x, y, z; speed and contact number, each 255 where it is not known;
+        // or `absent` for a grain that is not present.
+        this.packed = new Uint16Array(4 * n * k);
+        this.filmBytes = new Uint8Array(this.film ? n * k : 0);
+        this.unpack(bytes.subarray(10 * n), perGrain * n);
+    }
+
+    unpack(bytes, size) {
+        const n = this.grains, packed = this.packed;
+        const last = [new Uint16Array(n), new Uint16Array(n), new Uint16Array(n)];
+        for (let frame = 0; frame < this.times.length; ++frame) {
+            const from = frame * size, into = frame * 4 * n;
+            for (let axis = 0; axis < 3; ++axis) {
+                const low = from + 2 * axis * n, high = low + n, before = last[axis];
+                for (let i = 0; i < n; ++i) {
+                    const zigzag = bytes[low + i] | (bytes[high + i] << 8);
+                    before[i] += (zigzag >> 1) ^ -(zigzag & 1);
+                    packed[into + 4 * i + axis] = before[i];
+                }
+            }
+            const speed = from + 6 * n, contacts = speed + n, present = contacts + n;
+            for (let i = 0; i < n; ++i)
+                packed[into + 4 * i + 3] = bytes[present + i] ? presentState(bytes[speed + i], bytes[contacts + i]) : absent;
+            if (this.film) this.filmBytes.set(bytes.subarray(present + n, present + 2 * n), frame * n);
+        }
+    }
+
     isPresent(frame, grain) {
         return this.packed[4 * (frame * this.grains + grain) + 3] !== absent;
     }
@@ -80,45 +116,5 @@ class BedMoments {
 
     indexAt(time) {
         return nearestIndex(this.times, time);
-    }
-}
-
-class PageBed extends BedMoments {
-    constructor(facts, bytes) {
-        super();
-        Object.assign(this, facts); // grains, times, low, high, places, speed, ...
-        const n = this.grains, k = this.times.length;
-        const perGrain = this.film ? 10 : 9;
-        if (bytes.length !== 10 * n + k * n * perGrain)
-            throw new Error(`there are ${bytes.length} bytes of them in place of ${10 * n + k * n * perGrain}`);
-        const view = new DataView(bytes.buffer, bytes.byteOffset);
-        this.ids = Int32Array.from({length: n}, (_, i) => view.getInt32(4 * i, true));
-        this.species = Uint16Array.from({length: n}, (_, i) => view.getUint16(4 * n + 2 * i, true));
-        this.radii = Float32Array.from({length: n}, (_, i) => view.getFloat32(6 * n + 4 * i, true));
-        // The data as the graphics card reads it: x, y, z; speed and contact number, each 255 where it is not known;
-        // or `absent` for a grain that is not present.
-        this.packed = new Uint16Array(4 * n * k);
-        this.filmBytes = new Uint8Array(this.film ? n * k : 0);
-        this.unpack(bytes.subarray(10 * n), perGrain * n);
-    }
-
-    unpack(bytes, size) {
-        const n = this.grains, packed = this.packed;
-        const last = [new Uint16Array(n), new Uint16Array(n), new Uint16Array(n)];
-        for (let frame = 0; frame < this.times.length; ++frame) {
-            const from = frame * size, into = frame * 4 * n;
-            for (let axis = 0; axis < 3; ++axis) {
-                const low = from + 2 * axis * n, high = low + n, before = last[axis];
-                for (let i = 0; i < n; ++i) {
-                    const zigzag = bytes[low + i] | (bytes[high + i] << 8);
-                    before[i] += (zigzag >> 1) ^ -(zigzag & 1);
-                    packed[into + 4 * i + axis] = before[i];
-                }
-            }
-            const speed = from + 6 * n, contacts = speed + n, present = contacts + n;
-            for (let i = 0; i < n; ++i)
-                packed[into + 4 * i + 3] = bytes[present + i] ? presentState(bytes[speed + i], bytes[contacts + i]) : absent;
-            if (this.film) this.filmBytes.set(bytes.subarray(present + n, present + 2 * n), frame * n);
-        }
     }
 }

@@ -6,8 +6,38 @@
 // PairForcesWriter (render/page/bed/page_bed.cpp) writes them.
 const firstOfWalls = 0xffffff - 1000; // numbers above this one are those of walls
 
-/** Forces at some moments: `at` has, by moment, {first, second, force}; `moments` are their numbers. */
-class Forces {
+class PairForces {
+    /** facts: {moments, pairs, lowest, highest} from the bed's facts. grains: their number. */
+    constructor(facts, bytes, grains) {
+        const bytesAPair = 7, all = facts.pairs.reduce((sum, pairs) => sum + pairs, 0);
+        if (bytes.length !== bytesAPair * all)
+            throw new Error(`there are ${bytes.length} bytes of forces in place of ${bytesAPair * all}`);
+        Object.assign(this, facts);
+        this.grains = grains;
+        this.at = new Map(); // by moment: {first, second, force}
+        let from = 0;
+        facts.moments.forEach((moment, k) => {
+            this.at.set(moment, this.unpack(bytes.subarray(from, (from += bytesAPair * facts.pairs[k])), facts.pairs[k]));
+        });
+        this.setRange();
+    }
+
+    unpack(bytes, pairs) {
+        const first = new Uint32Array(pairs), second = new Uint32Array(pairs), force = new Float32Array(pairs);
+        const number = (plane, i) =>
+            bytes[plane * pairs + i] | (bytes[(plane + 1) * pairs + i] << 8) | (bytes[(plane + 2) * pairs + i] << 16);
+        for (let i = 0, before = 0; i < pairs; ++i) {
+            before = first[i] = before + number(0, i);
+            second[i] = number(3, i);
+            force[i] = this.ofByte(bytes[6 * pairs + i]);
+        }
+        return {first, second, force};
+    }
+
+    ofByte(byte) {
+        return byte === 0 ? 0 : this.lowest * Math.pow(this.highest / this.lowest, (byte - 1) / 253);
+    }
+
     /** For each grain, the sum of the normal forces on it in N; null when forces are not known at this moment. */
     sums(moment) {
         const pairs = this.at.get(moment);
@@ -44,40 +74,6 @@ class Forces {
     next(moment, by) {
         const those = this.moments.filter((one) => (by < 0 ? one < moment : one > moment));
         return those.length ? (by < 0 ? those[those.length - 1] : those[0]) : null;
-    }
-}
-
-class PairForces extends Forces {
-    /** facts: {moments, pairs, lowest, highest} from the bed's facts. grains: their number. */
-    constructor(facts, bytes, grains) {
-        super();
-        const bytesAPair = 7, all = facts.pairs.reduce((sum, pairs) => sum + pairs, 0);
-        if (bytes.length !== bytesAPair * all)
-            throw new Error(`there are ${bytes.length} bytes of forces in place of ${bytesAPair * all}`);
-        Object.assign(this, facts);
-        this.grains = grains;
-        this.at = new Map(); // by moment: {first, second, force}
-        let from = 0;
-        facts.moments.forEach((moment, k) => {
-            this.at.set(moment, this.unpack(bytes.subarray(from, (from += bytesAPair * facts.pairs[k])), facts.pairs[k]));
-        });
-        this.setRange();
-    }
-
-    unpack(bytes, pairs) {
-        const first = new Uint32Array(pairs), second = new Uint32Array(pairs), force = new Float32Array(pairs);
-        const number = (plane, i) =>
-            bytes[plane * pairs + i] | (bytes[(plane + 1) * pairs + i] << 8) | (bytes[(plane + 2) * pairs + i] << 16);
-        for (let i = 0, before = 0; i < pairs; ++i) {
-            before = first[i] = before + number(0, i);
-            second[i] = number(3, i);
-            force[i] = this.ofByte(bytes[6 * pairs + i]);
-        }
-        return {first, second, force};
-    }
-
-    ofByte(byte) {
-        return byte === 0 ? 0 : this.lowest * Math.pow(this.highest / this.lowest, (byte - 1) / 253);
     }
 }
 

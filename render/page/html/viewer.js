@@ -41,13 +41,6 @@ class Viewer {
         this.loadGrains();
     }
 
-    /** Sends the moments again, whose bytes have changed. */
-    refresh() {
-        const gl = this.gl;
-        gl.bindBuffer(gl.ARRAY_BUFFER, this.moments);
-        gl.bufferSubData(gl.ARRAY_BUFFER, 0, this.frames.packed);
-    }
-
     /** Takes the meshes of walls: the bed's facts about them, and their bytes. They belong to all moments. */
     setMeshes(facts, bytes) {
         this.meshes = new Meshes(this.gl, facts, bytes);
