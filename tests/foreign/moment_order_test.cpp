@@ -44,11 +44,11 @@ TEST(MomentOrder, ARestartReplacesWhatTheRunHadGivenUp) {
     // Frames of the branch that was given up, at steps that do not come again: 350 and 450.
     const auto branch = file_of({0, 100, 200, 300, 350, 450, 300, 400, 500});
     EXPECT_THAT(taken(branch), ElementsAre(0, 1, 2, 6, 7, 8));
-    const OrderedMoments::Returned returned = in_order(branch, one_run).returned;
-    EXPECT_EQ(returned.twice, 1u);
-    EXPECT_EQ(returned.given_up, 2u);
-    EXPECT_EQ(returned.from, 450);
-    EXPECT_EQ(returned.to, 300);
+    const OrderedMoments::GoneBack gone_back = in_order(branch, one_run).gone_back;
+    EXPECT_EQ(gone_back.twice, 1u);
+    EXPECT_EQ(gone_back.given_up, 2u);
+    EXPECT_EQ(gone_back.from, 450);
+    EXPECT_EQ(gone_back.to, 300);
     // The new branch ends before the old one had.
     EXPECT_THAT(taken(file_of({0, 100, 200, 300, 400, 500, 300, 400})), ElementsAre(0, 1, 2, 6, 7));
     // It has no step of the old one.
