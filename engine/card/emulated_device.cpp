@@ -78,8 +78,8 @@ bool can_fuse() {
 std::unique_ptr<Device> emulated_device() {
     if (!can_fuse())
         throw UserError(
-            "a card cannot be emulated here: the processor has no fused multiply-add (FMA); take "
-            "--device processor");
+            "a card cannot be emulated here: the processor has no fused multiply-add (FMA); compute "
+            "on the processor");
     return std::make_unique<EmulatedDevice>();
 }
 

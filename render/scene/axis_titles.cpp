@@ -16,7 +16,8 @@ LabelParts parts_of(const std::string& label, const IsUnit& is_unit) {
     constexpr std::array<std::array<std::string_view, 2>, 4> writings{
         {{"(", ")"}, {"[", "]"}, {", ", ""}, {" in ", ""}}};
     for (const auto& [before, after] : writings) {
-        const std::size_t end = label.size() - std::min(label.size(), after.size()), open = label.rfind(before);
+        const std::size_t end = label.size() - std::min(label.size(), after.size()),
+                          open = label.rfind(before);
         if (open == std::string::npos || open == 0 || open + before.size() > end) continue;
         const std::string unit = label.substr(open + before.size(), end - open - before.size());
         if (!label.ends_with(after) || !is_unit(unit)) continue;

@@ -27,7 +27,8 @@ struct RunToRead {
     std::vector<std::string> news{};  // what was told of imported files
 };
 
-// The folder that a file, a pattern or a folder lies in. Unlike folder_around(), it knows patterns and folders.
+// The folder that a file, a pattern or a folder lies in. Unlike folder_around(), it knows patterns and
+// folders.
 std::filesystem::path folder_holding(const std::filesystem::path& path);
 
 // If the folder was written by `grainreel handover` and another engine has run in it, makes our run's files
