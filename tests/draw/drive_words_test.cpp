@@ -95,6 +95,9 @@ TEST(CaptionWords, AreThereInTheirTime) {
     EXPECT_EQ(at(1), "one");
     EXPECT_EQ(at(2), "two");
     EXPECT_EQ(at(3), "");
+    scene.run.duration = 3;  // players stop at the last picture
+    EXPECT_EQ(at(3), "two");
+    EXPECT_EQ(at(3.1), "");
     scene.film.shows.live_words = {{"always", "", "", 1}};
     EXPECT_EQ(at(2.5), "always\n\ntwo");
     EXPECT_EQ(longest_note(scene), "always");

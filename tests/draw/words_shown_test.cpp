@@ -190,12 +190,12 @@ TEST(WordsShown, TextsFollow) {
     FilmedScene scene = with_all_words(640, 360);
     const Shot frame = flowing();
     EXPECT_THAT(note_text(scene, frame), testing::HasSubstr("12 of 1620 out"));
-    EXPECT_EQ(caption_at(scene.film, frame), "Words that stand there for a while");
+    EXPECT_EQ(caption_at(scene.film, scene.run.duration, frame), "Words that stand there for a while");
     scene.film.word_kinds.counts = false;
     EXPECT_EQ(note_text(scene, frame), "");
     EXPECT_EQ(longest_note(scene), "");
     scene.film.word_kinds.captions = false;
-    EXPECT_EQ(caption_at(scene.film, frame), "");
+    EXPECT_EQ(caption_at(scene.film, scene.run.duration, frame), "");
     EXPECT_EQ(clock_words(scene, frame), "t = 1.250 s\ncycle 25\nphase 0.25");
     scene.film.word_kinds.cycle = false;
     EXPECT_EQ(clock_words(scene, frame), "t = 1.250 s");

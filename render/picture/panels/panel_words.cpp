@@ -83,16 +83,17 @@ WordBlock playback_block(const Writer& measure, const Film& film) {
         }};
 }
 
-// The captions that all scenes share, in a row of their own.
-WordBlock captions_block(const Writer& measure, const Film& film, double width) {
+// The captions that all scenes share, in a row of their own. end: simulated time (s) at which they end.
+WordBlock captions_block(const Writer& measure, const Film& film, double end, double width) {
     const double inner = width - 2 * measure.type.margin;
     const CaptionPlan plan = plan_captions(film, inner);
     return {{inner, static_cast<double>(plan.band())},
             true,
-            [film, plan, inner](const Writer& on, double x, double y, const Shot& frame, const std::string&) {
+            [film, plan, inner, end](const Writer& on, double x, double y, const Shot& frame,
+                                     const std::string&) {
                 cairo_save(on.on);
                 cairo_translate(on.on, x, y);
-                draw_caption(on, plan, caption_at(film, frame), inner);
+                draw_caption(on, plan, caption_at(film, end, frame), inner);
                 cairo_restore(on.on);
             }};
 }
@@ -109,7 +110,7 @@ std::vector<WordBlock> common_blocks(const Writer& measure, const std::vector<Pa
     if (common.captions) {
         Film film = scene.film;
         film.width = whole.width, film.height = whole.height;
-        blocks.push_back(captions_block(measure, film, width));
+        blocks.push_back(captions_block(measure, film, scene.run.duration, width));
     }
     blocks.push_back({widest_clock(measure, scene), true,
                       [scene](const Writer& on, double x, double y, const Shot& frame, const std::string&) {
@@ -198,7 +199,7 @@ double notes_height(const Writer& measure, const std::vector<Panel>& panels, dou
 }
 
 std::string panel_note(const FilmedScene& scene, const Shot& frame) {
-    return joined(note_text(scene, frame), caption_at(scene.film, frame));
+    return joined(note_text(scene, frame), caption_at(scene.film, scene.run.duration, frame));
 }
 
 std::vector<std::string> longest_panel_notes(const FilmedScene& scene) {

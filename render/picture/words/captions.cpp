@@ -202,21 +202,14 @@ std::string longest_text(const std::vector<LiveWords>& words) {
 
 }  // namespace
 
-// The picture at a caption's end still has it where no other begins: a film that ends with its caption would
-// else end with a picture without words, at which a player stands.
-std::string caption_at(const Film& film, const Shot& frame) {
+std::string caption_at(const Film& film, double end, const Shot& frame) {
     if (!film.word_kinds.captions) return {};
     constexpr double rounding = 1e-9;  // s
-    const FilmCaption* shown = nullptr;
-    for (const FilmCaption& caption : film.captions) {
-        if (shows_caption(caption, frame.time)) {
-            shown = &caption;
-            break;
-        }
-        if (!shown && std::abs(frame.time - caption.to) <= rounding) shown = &caption;
-    }
-    if (!shown) return {};
-    return shown->words.empty() ? shown->text : text_now(shown->words, frame);
+    const bool is_last = std::abs(frame.time - end) <= rounding;
+    for (const FilmCaption& caption : film.captions)
+        if (shows_caption(caption, frame.time) || (is_last && caption.to >= end - rounding))
+            return caption.words.empty() ? caption.text : text_now(caption.words, frame);
+    return {};
 }
 
 std::string longest_caption(const FilmCaption& caption) {

@@ -51,7 +51,9 @@ std::string playback_text(const Film& film, const State& frame, const std::strin
 std::string note_text(const FilmedScene& scene, const Shot& frame);
 std::string longest_note(const FilmedScene& scene);
 // The caption that is shown at the frame's time; empty for none.
-std::string caption_at(const Film& film, const Shot& frame);
+// A caption that lasts until the run ends (at `end`, s) stands on the last picture too, at which players
+// stop.
+std::string caption_at(const Film& film, double end, const Shot& frame);
 // The caption, with values about as long as they get.
 std::string longest_caption(const FilmCaption& caption);
 // A note with a caption below it.

@@ -193,13 +193,14 @@ void Overlay::draw_on(cairo_t* on, const Shot& frame, const std::string& playbac
     });
     if (layout_.caption.height > 0)
         draw_part(on, layout_.caption, [&] {
-            draw_caption(writer, captions_, caption_at(scene_.film, frame), layout_.caption.width);
+            draw_caption(writer, captions_, caption_at(scene_.film, scene_.run.duration, frame),
+                         layout_.caption.width);
         });
 }
 
 void Overlay::renew_caption(Picture& picture, const Shot& frame) {
     const Rectangle& band = layout_.caption;
-    const std::string caption = caption_at(scene_.film, frame);
+    const std::string caption = caption_at(scene_.film, scene_.run.duration, frame);
     if (band.height <= 0 || (written_ && caption == caption_)) return;
     caption_ = caption;
     const CairoSurface surface = blank_surface(band, palette_.background, scene_.film.transparent ? 0 : 1);
