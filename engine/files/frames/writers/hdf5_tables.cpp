@@ -42,7 +42,10 @@ Hdf5Tables::Hdf5Tables(const std::filesystem::path& file) : path_(file) {
     const auto access = checked(owned(H5Pcreate(H5P_FILE_ACCESS), H5Pclose));
     check(H5Pset_libver_bounds(id_of(access), H5F_LIBVER_V110, H5F_LIBVER_LATEST) >= 0 &&
           write_through_sink(id_of(access), failed_));
-    file_ = checked(owned(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, id_of(access)), H5Fclose));
+    // Nothing notes when it was made, so that the same frames are the same bytes at any time.
+    const auto how = checked(owned(H5Pcreate(H5P_FILE_CREATE), H5Pclose));
+    check(H5Pset_obj_track_times(id_of(how), 0) >= 0);
+    file_ = checked(owned(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, id_of(how), id_of(access)), H5Fclose));
 }
 
 void Hdf5Tables::fault() const {
@@ -60,6 +63,7 @@ void Hdf5Tables::check(bool good) const {
 
 void Hdf5Tables::add_group(const std::string& path, bool ordered) {
     const auto how = checked(owned(H5Pcreate(H5P_GROUP_CREATE), H5Pclose));
+    check(H5Pset_obj_track_times(id_of(how), 0) >= 0);
     if (ordered) H5Pset_link_creation_order(id_of(how), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
     checked(owned(H5Gcreate2(id_of(file_), path.c_str(), H5P_DEFAULT, id_of(how), H5P_DEFAULT), H5Gclose));
 }
