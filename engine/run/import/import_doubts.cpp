@@ -15,8 +15,8 @@ double size_of(const SceneMesh& mesh) {
     return (facts.high - facts.low).maxCoeff();
 }
 
-// Of grains that are as large as boulders, where lengths count as m and the user has not said so: the files
-// may be in mm.
+// Says that the files may be in mm: their grains are as large as boulders where lengths count as m. Says
+// nothing where the user gave the units.
 std::optional<std::string> doubt_about_grains(double largest, const ImportRequest& request,
                                               const UnitSystem& units) {
     constexpr double too_large = 0.3;  // m
@@ -26,9 +26,8 @@ std::optional<std::string> doubt_about_grains(double largest, const ImportReques
                        request.from.string(), largest);
 }
 
-// Of walls that are so large beside the grains that their file may be in another unit, as meshes of ours are
-// told of; and of walls that are all smaller than a grain, as where their lengths were scaled and those of
-// grains were not.
+// Says that the walls may be in another unit than the grains. They are thousands of grains wide, or all of
+// them are smaller than a grain.
 std::optional<std::string> doubt_about_walls(double largest, const Scene& scene, const ImportRequest& request,
                                              const ForeignArchive& archive) {
     constexpr double too_large = 3000;  // diameters of the largest grain

@@ -48,8 +48,8 @@ struct PartsWanted {
 struct RenderRequest {
     std::filesystem::path run;     // its folder
     std::filesystem::path beside;  // the folder for the result without --out; empty: beside the run
-    // Of another program's files: what the user calls them, and what was told while they were read, which
-    // log.txt has too.
+    // Another program's files have these: the user's name for them, and what was told while they were read.
+    // log.txt has it too.
     std::string named;
     std::vector<std::string> told;
     Assignments sets;  // values given to keys of its film
